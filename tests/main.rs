@@ -11,6 +11,7 @@ mod bonded_block;
 mod bonded_exchange;
 mod bonds;
 mod books;
+mod cell;
 mod coefficients;
 mod derivatives;
 mod every_law;

@@ -2,7 +2,7 @@
 
 use crate::base::quantity::BoundaryIndex;
 use crate::engine::averages::{self, Content, Coordination, Sight, Tensor};
-use crate::engine::simulation::{ElasticEnergy, Simulation};
+use crate::engine::simulation::{ElasticEnergy, Fabric, Simulation};
 use crate::engine::state::Loss;
 use crate::engine::statics;
 use std::cell::OnceCell;
@@ -31,6 +31,10 @@ pub struct Findings {
     carried: OnceCell<Vec<Tensor>>,
     /// Contacts of the particles in each region.
     coordination: OnceCell<Vec<Coordination>>,
+    /// Stress of the cell \[Pa\].
+    cell_stress: OnceCell<[f64; 6]>,
+    /// Contacts between the particles of the cell.
+    cell_fabric: OnceCell<Fabric>,
     /// What each probe sees.
     sights: OnceCell<Vec<Sight>>,
 }
@@ -83,6 +87,16 @@ impl Findings {
         let fluctuation = self.content(simulation, region).fluctuation;
         let carried = 0.5 * (carried[row][column] + carried[column][row]);
         (carried - fluctuation[row][column]) / simulation.scene().regions[region].shape.volume()
+    }
+
+    /// Stress of the periodic cell \[Pa\].
+    pub(super) fn cell_stress(&self, simulation: &Simulation) -> &[f64; 6] {
+        self.cell_stress.get_or_init(|| simulation.cell_stress())
+    }
+
+    /// Contacts between the particles of the periodic cell.
+    pub(super) fn cell_fabric(&self, simulation: &Simulation) -> &Fabric {
+        self.cell_fabric.get_or_init(|| simulation.cell_fabric())
     }
 
     /// What a probe sees.

@@ -71,6 +71,8 @@ macro_rules! quantities {
 quantities! {
     /// \[m\]
     Length Some("m"), 0 1 0 0;
+    /// \[m³\]
+    Volume Some("m3"), 0 3 0 0;
     /// \[m/s\]
     Velocity Some("m/s"), 0 1 -1 0;
     /// \[rad\]

@@ -7,6 +7,7 @@ mod about;
 mod accuracy;
 mod body;
 mod boundary;
+pub(crate) mod cell;
 mod checked;
 mod damping;
 pub mod exchange;
@@ -32,6 +33,7 @@ pub use about::About;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
+pub use cell::{Cell, CellMotion, StressServo};
 pub use checked::Scene;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
@@ -111,6 +113,8 @@ pub struct SceneDraft {
     pub domain: Option<[[f64; 3]; 2]>,
     /// What happens to particles outside of it.
     pub outside: Outside,
+    /// The cell that repeats, if there is one.
+    pub cell: Option<Cell>,
     /// Particles that come, in the order of the file.
     pub insertions: Vec<Insertion>,
     /// Where particles are taken away, in the order of the file.

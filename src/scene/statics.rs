@@ -21,6 +21,9 @@ impl SceneDraft {
                 return Some((what, "damping.viscous, or none"));
             }
         }
+        if self.cell.is_some() {
+            return Some(("[cell]".to_owned(), "a scene without a periodic cell"));
+        }
         let moves = self.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free()))?;
         Some((format!("[boundary.{}] moved by forces", moves.name), "a boundary that is led or fixed"))
     }

@@ -4,12 +4,7 @@ use super::mistake::Mistake;
 use super::single::Error;
 
 /// What people look for under these names and this program does not have.
-const ABSENT: [(&[&str], &str, &str); 5] = [
-    (
-        &["periodic", "periodicity", "periodic_cell", "cell"],
-        "periodic cells",
-        "a [domain] box that particles may not leave",
-    ),
+const ABSENT: [(&[&str], &str, &str); 4] = [
     (&["coarse_graining", "coarsegraining", "coarse_grain"], "coarse graining factors", "real radii"),
     (
         &["shape", "clump", "clumps", "multisphere", "superquadric", "polyhedron", "ellipsoid", "aspect_ratio"],

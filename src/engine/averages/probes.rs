@@ -1,5 +1,6 @@
 //! What probes see: found by looking, never in a time step.
 
+use crate::base::geometry::Lattice;
 use crate::base::number::Vector;
 use crate::base::quantity::{ParticleId, SetIndex};
 use crate::engine::simulation::Simulation;
@@ -59,7 +60,7 @@ fn three([x, y, z, _]: [f64; 4]) -> [f64; 3] {
 fn particle(simulation: &Simulation, slot: usize) -> Sight {
     let particles = &simulation.state().particles;
     Sight {
-        position: three(particles.position[slot]),
+        position: simulation.state().unwrapped(slot),
         velocity: three(particles.velocity[slot]),
         angular_velocity: three(particles.angular_velocity[slot]),
         force: three(particles.force[slot]),
@@ -76,7 +77,7 @@ fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
     for slot in members.filter_map(|(index, _)| particles.slot_of(index)) {
         let own = particles.velocity[slot][3];
         mass += own;
-        place += Vector::from(particles.position[slot]) * own;
+        place += Vector::from(simulation.state().unwrapped(slot)) * own;
         momentum += Vector::from(particles.velocity[slot]) * own;
         force += Vector::from(particles.force[slot]);
     }
@@ -116,7 +117,14 @@ fn contacts(simulation: &Simulation, sights: &mut [Sight]) {
     let particles = &simulation.state().particles;
     for (place, ids, force) in pairs {
         let [Some(a), Some(b)] = ids.map(|index| particles.slot_of(index)) else { continue };
-        let apart = Vector::from(particles.position[a]) - Vector::from(particles.position[b]);
+        let apart = match (&simulation.scene().cell, &simulation.state().cell) {
+            (Some(cell), Some(lies)) => {
+                let lattice = Lattice { edges: lies.edges, ..cell.lattice };
+                let [a, b] = [a, b].map(|slot| Vector::from(particles.position[slot]).to_array());
+                Vector::from(lattice.nearest(a, b))
+            }
+            _ => Vector::from(particles.position[a]) - Vector::from(particles.position[b]),
+        };
         let distance = apart.length();
         sights[place] = Sight {
             force: force.to_array(),

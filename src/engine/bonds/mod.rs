@@ -24,7 +24,7 @@ use crate::engine::neighbours::bonds::is_bonded;
 use crate::engine::neighbours::near_pairs;
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
-use crate::engine::state::{BondList, Particles, Row, State, StateFault};
+use crate::engine::state::{BondList, CellState, IMAGE, Particles, Row, State, StateFault};
 use crate::laws::bond::creation::{Creation, Moment, near_pair};
 use crate::laws::bond::damping::LastDamping;
 use crate::laws::bond::{Body, BondLoads, Coefficients, Law, OneBond, Pair, Quaternion, Rows};
@@ -108,7 +108,7 @@ impl BondPass {
         let mut pairs = Vec::new();
         near_pairs(particles, self.create_distance + ahead.margin.max(ahead.way), |a, b, _| {
             let [first, second] = [a, b].map(|slot| particles.id[slot as usize]);
-            if self.may_bond(first, second) && !is_bonded(list, a, b) {
+            if !are_images(particles, a, b) && self.may_bond(first, second) && !is_bonded(list, a, b) {
                 pairs.push([a, b]);
             }
         });
@@ -120,12 +120,19 @@ impl BondPass {
         let particles = &state.particles;
         let mut pairs = Vec::new();
         if moment.number == 0 {
-            pairs.extend(self.pairs.iter().map(|pair| pair.map(|index| particles.slot[index as usize])));
+            pairs.extend(self.pairs.iter().map(|pair| match &state.cell {
+                None => pair.map(|index| particles.slot[index as usize]),
+                Some(cell) => nearest(particles, cell, *pair),
+            }));
         }
         let list = &state.bonds[self.index];
         let hand = |a: u32, b: u32, distance: f64| {
             let ids = [particles.id[a as usize], particles.id[b as usize]];
-            if near_pair(distance, self.create_distance) && self.may_bond(ids[0], ids[1]) && !is_bonded(list, a, b) {
+            if near_pair(distance, self.create_distance)
+                && !are_images(particles, a, b)
+                && self.may_bond(ids[0], ids[1])
+                && !is_bonded(list, a, b)
+            {
                 pairs.push([a, b]);
             }
         };
@@ -136,9 +143,9 @@ impl BondPass {
             near_pairs(particles, self.create_distance, hand);
         }
         for pair in &mut pairs {
-            pair.sort_unstable_by_key(|&slot| particles.id[slot as usize]);
+            pair.sort_unstable_by_key(|&slot| (particles.id[slot as usize], slot));
         }
-        pairs.sort_unstable_by_key(|pair| pair.map(|slot| particles.id[slot as usize]));
+        pairs.sort_unstable_by_key(|pair| pair.map(|slot| (particles.id[slot as usize], slot)));
         pairs.dedup();
         pairs
     }
@@ -263,13 +270,33 @@ impl Pass for BondPass {
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
             let carried = self.carried(state, bond);
             let [first, second] = [i, j].map(|slot| particles.id[slot as usize]);
-            let other = Vector::from(particles.position[j as usize]).to_array();
+            let [position, other] = [i, j].map(|slot| Vector::from(particles.position[slot as usize]).to_array());
             let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
             let force = whole_force(list, bond, &carried);
             let (law, second) = (self.index as u32, Some(second));
-            tell(BondRecord { law, first, second, other, force, carried, dissipated });
+            tell(BondRecord { law, first, second, position, other, force, carried, dissipated });
         }
     }
+}
+
+/// Whether both are images: their particles, or one of them and an image of the other, are the same pair.
+fn are_images(particles: &Particles, a: u32, b: u32) -> bool {
+    [a, b].iter().all(|&slot| particles.owner[slot as usize] == IMAGE)
+}
+
+/// The slots of two particles (indices into the scene's), or of one and an image of the other, that are nearest to each other.
+fn nearest(particles: &Particles, cell: &CellState, pair: [u32; 2]) -> [u32; 2] {
+    let [i, j] = pair.map(|index| particles.slot[index as usize]);
+    let of = |original: u32| {
+        let images = cell.images.iter().zip(&cell.originals);
+        images.filter(move |(_, of)| **of == original).map(|(&image, _)| image)
+    };
+    let square = |[a, b]: &[u32; 2]| {
+        let apart = Vector::from(particles.position[*a as usize]) - particles.position[*b as usize].into();
+        apart.dot(apart)
+    };
+    let with_images = of(j).map(|image| [i, image]).chain(of(i).map(|image| [image, j]));
+    with_images.fold([i, j], |least, next| if square(&next) < square(&least) { next } else { least })
 }
 
 /// The columns of what damping leaves.

@@ -342,10 +342,11 @@ impl Pass for WallBondPass {
             let carried = self.carried(state, bond);
             let foot = self.foot(list.foot[bond], &state.boundaries[self.boundary.index()]);
             let (first, other) = (state.particles.id[slot as usize], foot.position.to_array());
+            let position = Vector::from(state.particles.position[slot as usize]).to_array();
             let dissipated = list.lost.get(bond).copied().unwrap_or(0.0);
             let law = self.index as u32;
             let force = whole_force(list, bond, &carried);
-            tell(BondRecord { law, first, second: None, other, force, carried, dissipated });
+            tell(BondRecord { law, first, second: None, position, other, force, carried, dissipated });
         }
     }
 

@@ -8,7 +8,7 @@
 use crate::base::geometry::Frame;
 use crate::base::number::Vector;
 use crate::engine::state::nodes::farthest;
-use crate::engine::state::{BoundaryState, Nodes, Row, State};
+use crate::engine::state::{BoundaryState, IMAGE, Nodes, Row, State};
 use crate::laws::motion::InputCourse;
 use crate::laws::surface::{Deforming, Features, SLOW, is_skipped};
 use crate::scene::{GoverningLaws, Scene};
@@ -80,9 +80,10 @@ impl Passing {
     /// Where the centre of a particle (slot) was before the present time step, to rounding \[m\].
     fn origin(&self, boundaries: &[BoundaryState], particles: MovedParticles, slot: usize) -> Vector {
         let centre = Vector::from(particles.position[slot]);
-        match (particles.owner[slot] as usize).checked_sub(1) {
-            None => centre - Vector::from(particles.velocity[slot]) * particles.step,
-            Some(group) => {
+        match particles.owner[slot] {
+            0 | IMAGE => centre - Vector::from(particles.velocity[slot]) * particles.step,
+            owner => {
+                let group = owner as usize - 1;
                 let [before, now] = self.frames(group, &boundaries[group]);
                 before.place(now.inside(centre))
             }

@@ -121,6 +121,8 @@ pub(crate) struct SearchLimits {
     pub faster: f64,
     /// Largest speed that each boundary has or is about to get, of its particles \[m/s\].
     pub boundaries: Vec<f64>,
+    /// Largest speed at which a cell that is deformed brings neighbours towards each other \[m/s\].
+    pub streaming: f64,
     /// The time steps in which bonds to be made count; none where no bond to come does.
     pub window: Option<Window>,
 }
@@ -134,7 +136,7 @@ impl SearchLimits {
 
     /// What the boundary of a particle (slot) may add to its speed \[m/s\].
     fn of_boundary(&self, particles: &Particles, slot: u32) -> f64 {
-        match (particles.owner[slot as usize] as usize).checked_sub(1) {
+        match particles.group(slot as usize) {
             None => 0.0,
             Some(boundary) => {
                 let [x, y, z, _] = particles.velocity[slot as usize];
@@ -155,7 +157,7 @@ impl SearchLimits {
     ) -> Option<Contact> {
         let [i, j] = slots.map(|slot| particles.velocity[slot as usize][3]);
         let boundary = slots.map(|slot| self.of_boundary(particles, slot));
-        self.deepest(law, row, contact, i.max(j), boundary[0] + boundary[1])
+        self.deepest(law, row, contact, i.max(j), boundary[0] + boundary[1] + self.streaming)
     }
 
     /// The contact of a particle with a boundary as deep as it may get, if it may.

@@ -57,9 +57,9 @@ pub(crate) struct Encounters<'a> {
 
 /// The place of the body that moves a particle (slot).
 fn mover(state: &State, slot: u32) -> usize {
-    match state.particles.owner[slot as usize] {
-        0 => slot as usize,
-        owner => state.particles.len() + owner as usize - 1,
+    match state.particles.group(slot as usize) {
+        None => state.particles.original(slot) as usize,
+        Some(group) => state.particles.len() + group,
     }
 }
 
@@ -152,8 +152,8 @@ impl<'a> Encounters<'a> {
             Meetings::ComingImpact | Meetings::ComingPacked => {
                 let of_group = |slot: u32| {
                     let [x, y, z, _] = state.particles.velocity[slot as usize];
-                    let group = state.particles.owner[slot as usize].checked_sub(1)?;
-                    Some(gained(group as usize, Vector::new(x, y, z).length()))
+                    let group = state.particles.group(slot as usize)?;
+                    Some(gained(group, Vector::new(x, y, z).length()))
                 };
                 let of_surface = |boundary: u32| {
                     let moved = &state.boundaries[boundary as usize];
@@ -183,8 +183,8 @@ impl<'a> Encounters<'a> {
     fn closing(&self, state: &State, contact: &Contact, first: u32, second: Option<u32>) -> f64 {
         let of = |slot: u32| {
             let (mass, id) = (state.particles.velocity[slot as usize][3], state.particles.id[slot as usize]);
-            let group = state.particles.owner[slot as usize].checked_sub(1);
-            let moves = group.is_none_or(|group| self.bodies[group as usize].as_ref().is_some_and(RigidBody::is_free));
+            let group = state.particles.group(slot as usize);
+            let moves = group.is_none_or(|group| self.bodies[group].as_ref().is_some_and(RigidBody::is_free));
             if moves { Vector::from(self.fields.loads(mass, id)) * (1.0 / mass) } else { Vector::zero() }
         };
         let relative = of(first) - second.map_or(Vector::zero(), of);

@@ -38,6 +38,8 @@ pub struct BondRecord {
     pub first: u32,
     /// Body j: index into the scene's particles; none where it is the law's plane.
     pub second: Option<u32>,
+    /// Where body i is \[m\].
+    pub position: [f64; 3],
     /// Where body j is, or the foot of the bond on the plane \[m\].
     pub other: [f64; 3],
     /// Force on body i, that of damping included \[N\].
@@ -100,8 +102,12 @@ impl Motion {
     pub(crate) fn of(self, state: &State, slot: u32) -> (Row, Row) {
         let (particles, slot) = (&state.particles, slot as usize);
         let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+        if let Some(cell) = &state.cell {
+            let stream = cell.streaming_at(particles.position[slot]);
+            velocity.iter_mut().zip(stream).for_each(|(sum, part)| *sum += part);
+        }
         let Self::HalfStepBack(step) = self else { return (velocity, spin) };
-        if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
+        if let Some(group) = particles.group(slot) {
             let moved = &state.boundaries[group];
             let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
             let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
@@ -110,9 +116,10 @@ impl Motion {
                 spin[axis] -= moved.inertial.spin_kick[axis];
             }
         } else {
+            let original = particles.original(slot as u32) as usize;
             for axis in 0..3 {
-                velocity[axis] -= 0.5 * step / velocity[3] * particles.force[slot][axis];
-                spin[axis] -= 0.5 * step / spin[3] * particles.torque[slot][axis];
+                velocity[axis] -= 0.5 * step / velocity[3] * particles.force[original][axis];
+                spin[axis] -= 0.5 * step / spin[3] * particles.torque[original][axis];
             }
         }
         (velocity, spin)

@@ -13,7 +13,7 @@ pub(crate) fn potential(state: &State, fields: &Fields) -> f64 {
     let of = |slot: usize| {
         let [x, y, z] = fields.weight(particles.velocity[slot][3]);
         let [a, b, c] = fields.applied(particles.id[slot]);
-        -Vector::new(x + a, y + b, z + c).dot(particles.position[slot].into())
+        -Vector::new(x + a, y + b, z + c).dot(state.unwrapped(slot).into())
     };
     (0..particles.len()).filter(|&slot| particles.owner[slot] == 0).map(of).sum()
 }

@@ -57,7 +57,7 @@ pub(super) fn find(
         let by = by.or_else(|| outside.filter(|corners| is_outside(centre, corners)).map(|_| scene.outlets.len()));
         let by = by.or_else(|| passed.iter().find(|it| it.slot == slot).map(|it| first + it.boundary));
         let Some(by) = by else { continue };
-        if let Some(group) = (particles.owner[slot] as usize).checked_sub(1) {
+        if let Some(group) = particles.group(slot) {
             return Err(RunError::GroupLeaves {
                 id: particles.id[slot],
                 boundary: scene.boundaries[group].name.clone(),

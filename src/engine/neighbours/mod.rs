@@ -20,6 +20,7 @@ mod surfaces;
 use crate::base::geometry::{Frame, Quaternion, rotation};
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
+use crate::engine::cell::images::{self, Images};
 use crate::engine::state::{Nodes, Particles, State, StateFault, demand};
 use crate::laws::contact::{HistoryRow, Law};
 use crate::laws::surface::{self, Deforming};
@@ -71,6 +72,8 @@ pub(crate) struct Search {
     making: ListBuilder,
     /// A number for each particle.
     mark: Vec<u32>,
+    /// Makes images, where the scene has a periodic cell.
+    images: Option<Images>,
 }
 
 impl Search {
@@ -103,6 +106,7 @@ impl Search {
             found: Vec::new(),
             making: ListBuilder::default(),
             mark: Vec::new(),
+            images: Images::of(scene),
         }
     }
 
@@ -121,6 +125,11 @@ impl Search {
     /// How far beyond touch a contact law holds bodies together \[m\].
     pub(crate) fn reach(&self) -> f64 {
         self.reach
+    }
+
+    /// Radius of the largest particle \[m\].
+    pub(crate) fn largest_radius(&self) -> f64 {
+        self.largest
     }
 
     /// Radius of the smallest particle \[m\].
@@ -172,7 +181,9 @@ impl Search {
         if used(state.neighbours.travel) <= skin {
             return false;
         }
-        state.neighbours.travel = farthest(state, context);
+        let travel = farthest(state, context);
+        // A cell that is deformed carries what is near along: by how much it comes nearer was summed up.
+        state.neighbours.travel = if state.cell.is_some() { travel.min(state.neighbours.travel) } else { travel };
         let used = used(state.neighbours.travel);
         if used <= skin {
             return false;
@@ -192,9 +203,13 @@ impl Search {
         if self.inserts {
             self.sizes.count(&state.particles);
         }
+        if let Some(images) = &self.images {
+            images.renew(state, skin);
+        }
         let grid = Grid::around(&state.particles, &self.sizes, skin, bonds::longest(state), context);
         self.order.find(&grid, &self.sizes, &state.particles, context);
         self.order.apply(&mut state.particles, context);
+        images::follow(state, &self.order.new_slot);
         for list in &mut state.bonds {
             bonds::sort(list, &self.order.new_slot, &self.order.slabs);
         }
@@ -303,7 +318,7 @@ fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
 /// Which pairs of the scene have a law.
 fn laws(scene: &Scene) -> Laws {
     let (materials, governing) = (scene.materials.len(), scene.governing_laws());
-    let groups = scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
+    let groups = scene.cell.is_some() || scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
     let here = scene.present();
     let mut met = (0..here.len().pow(2))
         .filter(|entry| here[entry / materials] && here[entry % materials])

@@ -6,7 +6,7 @@ use super::grid::Grid;
 use super::sizes::Sizes;
 use crate::base::lanes::Shared;
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::state::{Columns, Particles, Row};
+use crate::engine::state::{Columns, IMAGE, Particles, Row};
 
 /// Particles in a piece of the sort by slab.
 const PIECE: usize = 4 * CHUNK;
@@ -142,13 +142,15 @@ impl Order {
         }
         self.new_slot.resize(count, 0);
         let (new_slot, slot_of) = (Shared::new(&mut self.new_slot), Shared::new(&mut particles.slot));
-        let id = &particles.id;
+        let (id, owner) = (&particles.id, &particles.owner);
         context.each(pieces, |piece| {
             for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
                 // SAFETY: each old slot, and each of the scene's particles, has one new slot.
                 unsafe {
                     *new_slot.at(slots[slot] as usize) = slot as u32;
-                    *slot_of.at(id[slot] as usize) = slot as u32;
+                    if owner[slot] != IMAGE {
+                        *slot_of.at(id[slot] as usize) = slot as u32;
+                    }
                 }
             }
         });

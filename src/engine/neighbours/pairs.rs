@@ -15,7 +15,7 @@ const BEYOND: usize = 8;
 pub(crate) struct Laws {
     /// The contact law of each two materials.
     pub governing: GoverningLaws,
-    /// The law of every pair of particles, where there is only one and no group of particles that move as one.
+    /// The law of every pair of particles, where there is only one and no two particles are moved by the same.
     pub only: Option<u32>,
     /// Number of laws.
     pub count: usize,

@@ -5,7 +5,7 @@ use super::pairs::Laws;
 use crate::base::lanes::{self, Kernel, Lane};
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::state::{Columns, History, Particles, WallContacts};
+use crate::engine::state::{Columns, History, IMAGE, Particles, WallContacts};
 
 /// A plane of the scene.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ pub(crate) fn replace(
         let mut near = near[..count].to_vec();
         near.retain(|&slot| {
             laws.between(particles.material[slot as usize], plane.material) == Some(list.law)
-                && particles.owner[slot as usize] != plane.boundary + 1
+                && ![plane.boundary + 1, IMAGE].contains(&particles.owner[slot as usize])
         });
         near
     });

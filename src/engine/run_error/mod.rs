@@ -4,6 +4,7 @@ mod cause;
 
 pub use cause::Cause;
 
+use crate::base::geometry::lattice::STRAINS;
 use crate::base::words::plain;
 use crate::engine::state::clock::MOST_STEPS;
 
@@ -87,6 +88,39 @@ pub enum RunError {
         time: f64,
         /// Why.
         cause: Cause,
+    },
+    /// A periodic cell is to go on in another scene.
+    #[error("expected a state with a [cell] of the same origin where the scene has one, found another")]
+    CellElsewhere,
+    /// A strain of the cell is to be what no number is.
+    #[error("cell: expected a finite strain {name}, found {strain} at t = {time} s", name = STRAINS[*component], time = plain(*time))]
+    CellStrain {
+        /// Which component.
+        component: usize,
+        /// What it is to be.
+        strain: f64,
+        /// Time \[s\].
+        time: f64,
+    },
+    /// The cell would be deformed much in one time step.
+    #[error("cell: a strain would change by {strain:.3e} in a time step of {step:.3e} s at t = {time} s; deform the cell more slowly", time = plain(*time))]
+    CellStep {
+        /// The change.
+        strain: f64,
+        /// The time step \[s\].
+        step: f64,
+        /// Time \[s\].
+        time: f64,
+    },
+    /// The cell is narrower than the largest particle.
+    #[error("cell: faces {height:.3e} m apart at t = {time} s, less than the largest radius, {radius:.3e} m", time = plain(*time))]
+    CellNarrow {
+        /// Distance of two faces \[m\].
+        height: f64,
+        /// The largest radius \[m\].
+        radius: f64,
+        /// Time \[s\].
+        time: f64,
     },
     /// A particle left the domain.
     #[error("particle {id} left the [domain] at t = {time} s, at ({x:.3e}, {y:.3e}, {z:.3e}) m; likely a missing wall", time = plain(*time))]

@@ -37,6 +37,9 @@ impl Simulation {
         }
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
+        if let Some(cell) = &self.cell {
+            cell.end(&mut self.state, elapsed);
+        }
         if let Some(flow) = &self.flow {
             flow.end(&mut self.state, elapsed);
         }
@@ -50,6 +53,9 @@ impl Simulation {
         }
         course::begin(&self.scene, &mut self.state, interval)?;
         nodes::begin(&self.scene, &mut self.state, interval);
+        if let Some(cell) = &self.cell {
+            cell.begin(&mut self.state, interval)?;
+        }
         self.state.breaks.clear();
         if let Some(flow) = &self.flow {
             flow.begin(&mut self.state, interval);

@@ -4,6 +4,7 @@ use crate::engine::bonds::BondPass;
 use crate::engine::bonds::walls::WallBondPass;
 use crate::engine::boundaries::RigidBody;
 use crate::engine::boundaries::course;
+use crate::engine::cell::Cell;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::batches::BatchLaw;
 use crate::engine::contacts::coefficients::{self, CoefficientTable};
@@ -42,6 +43,7 @@ pub(super) fn state(scene: &Scene) -> State {
         damping_force: [0.0; 3],
         damping_impulse: [0.0; 3],
         exchange: flow::begun(scene),
+        cell: Cell::begun(scene),
         particles,
     }
 }

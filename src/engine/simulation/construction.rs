@@ -8,6 +8,7 @@ use crate::base::lanes::Width;
 use crate::base::threads::Workers;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::rigid_body;
+use crate::engine::cell::Cell;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
@@ -48,6 +49,7 @@ impl Simulation {
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
+            cell: Cell::of(&scene),
             flow,
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
@@ -108,6 +110,7 @@ impl Simulation {
         self.find_pace(self.state.clock.speed.max(self.boundary_speed()), true);
         self.first_step(&context)?;
         self.look_at_pressed();
+        self.look_at_cell();
         let step = self.state.clock.step;
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);

@@ -30,6 +30,8 @@ pub enum Input {
     Node(BoundaryIndex, usize, usize),
     /// The rate of an insertion.
     Rate(usize),
+    /// Of a component of the strain of the periodic cell.
+    Strain(usize),
 }
 
 /// Why there is no derivative.
@@ -128,6 +130,7 @@ impl Simulation {
             Input::Node(boundary, node, axis) => {
                 state.nodes_of_mut(boundary.index()).map(|nodes| &mut nodes.target[node][axis])
             }
+            Input::Strain(component) => state.cell.as_mut().map(|cell| &mut cell.target[component]),
             Input::Rate(insertion) => {
                 state.exchange.as_mut().and_then(|it| it.feeds.get_mut(insertion)).map(|feed| &mut feed.rate)
             }
@@ -147,6 +150,7 @@ impl Simulation {
             Input::Axis(boundary, axis) => (boundary, axis),
             Input::Node(boundary, _, axis) => (boundary, axis),
             Input::Rate(insertion) => return part * self.usual_rate(insertion, length),
+            Input::Strain(component) => return self.usual_strain(component, part),
         };
         let CurrentContact { overlap, radius, arm } = self.met_by(boundary);
         let way = (part * overlap).max(LEAST * radius);
@@ -170,6 +174,23 @@ impl Simulation {
         } else {
             0.0
         })
+    }
+
+    /// By how much the input of a component of the strain is displaced: by this part of the strain that closes the mean overlap, or by
+    /// what makes that of a stress.
+    fn usual_strain(&self, component: usize, part: f64) -> f64 {
+        let least = self.search.smallest_radius();
+        let strain = ((part * self.mean_overlap().unwrap_or(least)).max(LEAST * least)) / (2.0 * least);
+        let Some(cell) = &self.state.cell else { return strain };
+        let Some(servo) = self.scene.cell.as_ref().and_then(|cell| cell.motion[component].servo()) else {
+            return strain;
+        };
+        let stress = strain * cell.stiffness[component];
+        if stress > 0.0 {
+            stress
+        } else {
+            part * servo.stress.abs().max(cell.target[component].abs()).max(f64::MIN_POSITIVE)
+        }
     }
 
     /// The rate of an insertion, or that of one particle in a communication step of this length \[s\] where that is more.

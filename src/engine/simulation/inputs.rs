@@ -16,6 +16,21 @@ impl Simulation {
         }
     }
 
+    /// Sets the input of a component of the strain of the periodic cell for the next interval: the strain at its end, or the stress that
+    /// a servo is to reach then \[Pa\]. Components are xx, yy, zz, xy, xz, yz.
+    pub fn set_strain(&mut self, component: usize, value: f64) {
+        if let Some(cell) = &mut self.state.cell {
+            (cell.target[component], cell.target_rate[component]) = (value, 0.0);
+        }
+    }
+
+    /// The rate of that value over the next interval.
+    pub fn set_strain_rate(&mut self, component: usize, rate: f64) {
+        if let Some(cell) = &mut self.state.cell {
+            cell.target_rate[component] = rate;
+        }
+    }
+
     /// Sets where a node of a mesh, by its number from 0, is to be at the end of the next interval, along x, y or z \[m\].
     pub fn set_node(&mut self, boundary: BoundaryIndex, (node, axis): (usize, usize), value: f64) {
         if let Some(nodes) = self.state.nodes_of_mut(boundary.index()) {

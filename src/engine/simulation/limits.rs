@@ -19,6 +19,9 @@ const MOST_FORESEEN: f64 = 10.0;
 /// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
 const STEPS_BETWEEN_LOOKS_OF_SERVOS: u64 = 8;
 
+/// Time steps between looks at how stiff a cell is whose strains reach stresses.
+const STEPS_BETWEEN_LOOKS_OF_CELL: u64 = 32;
+
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
 
@@ -180,8 +183,19 @@ impl Simulation {
         };
         let is_due =
             |simulation: &Self| simulation.scene.boundaries.iter().zip(&simulation.state.boundaries).any(has_changed);
+        let looks = self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_CELL);
+        if looks {
+            self.look_at_cell();
+        }
         if self.serves && (self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_SERVOS) || is_due(self)) {
             self.look_at_pressed();
+        }
+    }
+
+    /// Looks at how stiff a cell is whose strains reach stresses.
+    pub(super) fn look_at_cell(&mut self) {
+        if let Some(cell) = self.cell.as_ref().filter(|cell| cell.serves()) {
+            cell.find_stiffness(&mut self.state, &self.passes);
         }
     }
 
@@ -233,7 +247,8 @@ impl Simulation {
 
     /// Largest speed of a boundary, as it is about to move \[m/s\].
     pub(super) fn boundary_speed(&self) -> f64 {
-        course::speeds(&self.scene, &self.bodies, &self.state, self.state.clock.step).fold(0.0, f64::max)
+        let streaming = self.cell.as_ref().map_or(0.0, |cell| cell.speed(&self.state));
+        course::speeds(&self.scene, &self.bodies, &self.state, self.state.clock.step).fold(streaming, f64::max)
     }
 
     /// Whether the scene moves a boundary, at a speed that is not that of the communication step's beginning.

@@ -5,13 +5,18 @@ use crate::base::threads::Context;
 use crate::laws::bond::creation::Moment;
 
 impl Simulation {
-    /// Sees to the lists after a drift in which no particle that forces move went further than this way \[m\]: they are made anew where
+    /// Sees to the lists after a drift in which no particle that forces move went further than this way \[m\], and in which a periodic cell was
+    /// strained: they are made anew where
     /// they are outdated, or where particles come or go. An error leaves lists that fit the particles.
-    pub(super) fn keep_lists(&mut self, way: f64, context: &Context) -> Result<(), RunError> {
+    pub(super) fn keep_lists(&mut self, way: f64, strain: f64, context: &Context) -> Result<(), RunError> {
         let travels = &self.workspace.travels;
         let carried = travels.iter().fold(0.0_f64, |most, travel| most.max(travel.carried));
         let extents = self.state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
-        let farthest = travels.iter().zip(extents).map(|(travel, extent)| travel.farthest(extent)).fold(way, f64::max);
+        let farthest = travels.iter().zip(extents).map(|(travel, extent)| travel.farthest(extent));
+        // What is near is carried along by the cell but for the change of the vector between both.
+        let near = 2.0 * self.search.largest_radius() + self.state.neighbours.skin + self.search.reach();
+        let way = if strain > 0.0 { way + 0.5 * strain * near } else { way };
+        let farthest = farthest.fold(way, f64::max);
         let before = self.state.neighbours.travel;
         let after = before + way.max(carried);
         self.state.neighbours.travel = after;
@@ -50,6 +55,12 @@ impl Simulation {
             return;
         }
         let mut made = false;
+        if self.cell.is_some()
+            && moment.number > 0
+            && self.scene.bonds.iter().any(|bond| bond.keys.create.bonds_near_pairs(moment))
+        {
+            self.rebuild(context);
+        }
         self.suppression.count_bonds(&self.state, &mut self.workspace.bonds);
         for pass in &self.passes {
             made |= pass.create(&mut self.state, moment, context.step);

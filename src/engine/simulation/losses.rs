@@ -44,7 +44,7 @@ impl Simulation {
     pub fn physical_residual_beside(&self, kinetic: f64, elastic: f64, losses: &[f64; Loss::COUNT]) -> Option<f64> {
         let book = self.state.losses.as_ref()?;
         let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
-        let given: f64 = self.state.boundaries.iter().map(|boundary| boundary.work).sum();
+        let given: f64 = self.state.works().sum();
         let grown = kinetic - book.initial_kinetic + elastic - book.initial_elastic + potential;
         Some(grown + losses.iter().sum::<f64>() - given - book.given_to_bodies)
     }
@@ -58,7 +58,7 @@ impl Simulation {
         let damping = [Loss::NormalDamping, Loss::TangentialDamping, Loss::BondDamping, Loss::GlobalDamping];
         let given: f64 = damping.into_iter().map(|loss| (-losses[loss as usize]).max(0.0)).sum();
         let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
-        let works = self.state.boundaries.iter().map(|boundary| boundary.work);
+        let works = self.state.works();
         let parts = [book.initial_kinetic, book.initial_elastic, potential, book.given_to_bodies];
         let scale = parts.into_iter().chain(works).chain(losses).map(f64::abs).sum();
         Some([residual + given, scale])

@@ -26,6 +26,7 @@ mod state_check;
 mod taken_over;
 mod time_step;
 
+pub use crate::engine::cell::Fabric;
 pub use crate::engine::contacts::{BondRecord, ContactRecord, PlacedSpring};
 pub use crate::engine::run_error::{Cause, RunError};
 pub use crate::engine::stability::{Limit, Limiter, LimiterKind, Mode};
@@ -45,6 +46,7 @@ use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::{RigidBody, nodes};
+use crate::engine::cell::Cell;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy;
@@ -79,6 +81,8 @@ pub struct Simulation {
     passing: Passing,
     /// Which contacts bonds suppress.
     suppression: Suppression,
+    /// The periodic cell, where the scene has one.
+    cell: Option<Cell>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.

@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::base::number::Vector;
 use crate::base::threads::Context;
+use crate::engine::cell::Fabric;
 use crate::engine::contacts::{BondRecord, ContactRecord, SLIGHT};
 use crate::engine::energy;
 use crate::engine::integration;
@@ -210,8 +211,9 @@ impl Simulation {
     /// The same, where the elastic energy is known \[J\].
     pub fn dissipated_energy_beside(&self, elastic: f64) -> Option<f64> {
         let ledger = self.state.ledger.as_ref()?;
-        let given: f64 = self.state.boundaries.iter().map(|boundary| boundary.work).sum();
-        let kinds = [Source::Contacts, Source::Bonds, Source::Walls, Source::Damping];
+        let given: f64 = self.state.works().sum();
+        // What the streaming motion of a cell did to velocities went through no force.
+        let kinds = [Source::Contacts, Source::Bonds, Source::Walls, Source::Damping, Source::Cell];
         let returned: f64 = kinds.into_iter().map(|kind| ledger.work_of(kind)).sum();
         Some(given - returned - (elastic - ledger.initial_elastic - self.exchanged().elastic))
     }
@@ -219,6 +221,28 @@ impl Simulation {
     /// What came less what went.
     pub fn exchanged(&self) -> NetExchange {
         self.state.exchange.as_ref().map_or_else(NetExchange::default, |exchange| exchange.net)
+    }
+
+    /// Cauchy stress of the periodic cell at the present time, tension positive: xx, yy, zz, xy, xz, yz \[Pa\]; zeros without a cell.
+    pub fn cell_stress(&self) -> [f64; 6] {
+        self.cell.as_ref().map_or([0.0; 6], |cell| cell.stress(&self.state))
+    }
+
+    /// Volume of the periodic cell \[m³\]; 0 without one.
+    pub fn cell_volume(&self) -> f64 {
+        self.cell.as_ref().map_or(0.0, |cell| cell.volume(&self.state))
+    }
+
+    /// Part of the periodic cell that no particle fills, what they overlap counted twice.
+    pub fn cell_porosity(&self) -> f64 {
+        self.cell.as_ref().map_or(0.0, |cell| cell.porosity(&self.state))
+    }
+
+    /// Contacts between the particles of a periodic cell.
+    pub fn cell_fabric(&self) -> Fabric {
+        let mut normals = Vec::new();
+        self.each_contact(&mut |record| normals.extend(record.second.map(|_| record.normal)));
+        Fabric::of(normals.into_iter(), self.state.particles.slots().count())
     }
 
     /// Threads at work.

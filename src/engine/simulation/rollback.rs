@@ -5,6 +5,7 @@
 //! same steps give the same bits, so going them again leads to where the failed one began.
 
 use super::{RunError, Simulation};
+use crate::engine::state::cell::Strains;
 use crate::engine::state::{BoundaryState, Row, State};
 
 /// Time steps after which a new state is kept: what going back may cost, and what the copy is shared by.
@@ -47,6 +48,8 @@ pub(super) struct Rollback {
     given: Vec<StepInputs>,
     /// The same of the nodes of meshes: values and rates.
     nodes: Vec<[Row; 2]>,
+    /// The same of the strains of a periodic cell.
+    strains: Vec<[Strains; 2]>,
     /// Rates of insertions that were given for them, and how they change, insertion by insertion.
     rates: Vec<[f64; 2]>,
     /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself.
@@ -81,6 +84,7 @@ impl Rollback {
             self.intervals.clear();
             self.given.clear();
             self.nodes.clear();
+            self.strains.clear();
             self.rates.clear();
             self.holds = true;
         }
@@ -88,6 +92,7 @@ impl Rollback {
         self.given.extend(state.boundaries.iter().map(StepInputs::of));
         let nodes = state.nodes.iter().flat_map(|nodes| nodes.target.iter().zip(&nodes.target_rate));
         self.nodes.extend(nodes.map(|(target, rate)| [*target, *rate]));
+        self.strains.extend(state.cell.iter().map(|cell| [cell.target, cell.target_rate]));
         let feeds = state.exchange.iter().flat_map(|exchange| &exchange.feeds);
         self.rates.extend(feeds.map(|feed| [feed.rate, feed.rate_of_rate]));
     }
@@ -130,6 +135,9 @@ impl Simulation {
                 self.state.nodes.iter_mut().flat_map(|nodes| nodes.target.iter_mut().zip(&mut nodes.target_rate));
             for ((target, rate), given) in nodes.zip(&way.nodes[number * count..]) {
                 [*target, *rate] = *given;
+            }
+            if let Some(cell) = &mut self.state.cell {
+                [cell.target, cell.target_rate] = way.strains[number];
             }
             let feeds = self.state.exchange.iter_mut().flat_map(|exchange| &mut exchange.feeds);
             let count = self.scene.insertions.len();

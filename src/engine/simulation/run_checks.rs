@@ -223,6 +223,10 @@ impl Simulation {
             }
             RunError::StepTooLong { .. }
             | RunError::EnergyGain { .. }
+            | RunError::CellElsewhere
+            | RunError::CellStrain { .. }
+            | RunError::CellStep { .. }
+            | RunError::CellNarrow { .. }
             | RunError::SurfaceRunaway { .. }
             | RunError::Turn { .. }
             | RunError::PutAtPlane { .. }

@@ -69,7 +69,8 @@ impl Simulation {
     pub(super) fn sight(&self, step: f64, Horizon { faster, is_far }: Horizon, root: f64) -> LookAhead {
         let fastest = self.system().fastest();
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state, step).collect::<Vec<_>>();
-        let driven = boundaries.iter().copied().fold(0.0, f64::max);
+        let streaming = self.cell.as_ref().map_or(0.0, |cell| cell.speed(&self.state));
+        let driven = boundaries.iter().copied().fold(streaming, f64::max);
         let acceleration = self.fields.acceleration(&self.state.particles);
         let least = self.search.smallest_radius().min(f64::MAX);
         let margin = match self.mean_overlap() {
@@ -90,7 +91,7 @@ impl Simulation {
             to: clock.time + STEPS_BETWEEN_LOOKS * step,
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
-        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, window };
+        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, streaming, window };
         LookAhead { ahead, speed, fastest, is_dense }
     }
 }

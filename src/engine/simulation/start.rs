@@ -1,6 +1,7 @@
 //! Where a simulation starts: as the scene was built, with driven axes moved, or in a state that another one reached.
 
 use super::{RunError, Simulation, assemble};
+use crate::base::threads::Context;
 use crate::engine::boundaries::{course, nodes, placing, rigid_body};
 use crate::engine::flow;
 use crate::engine::state::{BoundaryState, State};
@@ -12,9 +13,12 @@ impl Simulation {
     /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
-        let State { particles, mut neighbours, contacts, walls, bonds, exchange, .. } = reached;
+        let State { particles, mut neighbours, contacts, walls, bonds, exchange, cell, .. } = reached;
         neighbours.made_at = 0;
         let mut state = State { particles, neighbours, contacts, walls, bonds, exchange, ..assemble::state(&scene) };
+        if let (Some(begun), Some(ended)) = (&mut state.cell, cell) {
+            begun.stay(ended);
+        }
         if let Some(exchange) = &mut state.exchange {
             flow::begin_anew(&scene, exchange);
         }
@@ -65,6 +69,9 @@ impl Simulation {
         for (moved, given) in self.state.nodes.iter_mut().zip(&inputs.nodes) {
             moves |= nodes::put(moved, given);
         }
+        if let (Some(cell), Some(given)) = (&self.cell, &inputs.cell) {
+            moves |= cell.put(&mut self.state, given);
+        }
         if moves {
             rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
             self.rebuild(&self.standing());
@@ -84,6 +91,9 @@ impl Simulation {
         }
         for (moved, given) in self.state.nodes.iter_mut().zip(&other.state.nodes) {
             nodes::take_inputs(moved, given);
+        }
+        if let (Some(cell), Some(given)) = (&mut self.state.cell, &other.state.cell) {
+            (cell.target, cell.target_rate) = (given.target, given.target_rate);
         }
         take_rates(&mut self.state, &other.state);
     }
@@ -105,6 +115,9 @@ impl Simulation {
                 boundary.force_before[axis] = boundary.force[axis];
                 boundary.moment_before[axis] = boundary.moment[axis];
             }
+        }
+        if let Some(cell) = &self.cell {
+            cell.begin_mean(&mut self.state, &Context { step: 0.0, width: self.width, threads: None });
         }
         for nodes in &mut self.state.nodes {
             nodes.mean_force.clone_from(&nodes.force);

@@ -43,6 +43,9 @@ impl Simulation {
                 "strengths of bonds that go together",
             )?;
         }
+        if let Some(cell) = &self.cell {
+            cell.check(state)?;
+        }
         self.passes.iter().try_for_each(|pass| pass.check(state))
     }
 }

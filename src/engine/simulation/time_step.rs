@@ -5,6 +5,7 @@ use crate::base::threads::Context;
 use crate::engine::boundaries::{course, loads, nodes, rigid_body};
 use crate::engine::energy;
 use crate::engine::integration;
+use crate::engine::state::ledger::Source;
 use crate::laws::bond::creation::Moment;
 use crate::laws::motion::Progress;
 
@@ -19,8 +20,9 @@ impl Simulation {
         self.book_first_kick(step);
         let way = self.kick_and_drift(step, context);
         self.move_boundaries(progress);
+        let deformed = self.deform_cell(&progress, context)?;
         let groups = self.check_groups(step);
-        let lists = self.keep_lists(way, context);
+        let lists = self.keep_lists(way, deformed, context);
         self.make_bonds(&moment, context);
         self.done("lists and boundaries");
 
@@ -28,6 +30,9 @@ impl Simulation {
         let gravity = self.fields.weight_alone();
         self.clear_boundary_loads();
         let forces = self.evaluate(gravity.is_none(), context);
+        if let Some(cell) = &mut self.cell {
+            cell.finish(&mut self.state, step);
+        }
         self.follow_contacts();
 
         self.book_second_kick(gravity, step, context);
@@ -54,6 +59,14 @@ impl Simulation {
         integration::turn(particles, step, context);
         self.done("kick and drift");
         speed * step
+    }
+
+    /// Deforms the periodic cell, where there is one. Returns the strain.
+    fn deform_cell(&mut self, progress: &Progress, context: &Context) -> Result<f64, RunError> {
+        let Some(cell) = &mut self.cell else { return Ok(0.0) };
+        let strain = cell.advance(&mut self.state, progress, context);
+        self.done("cell");
+        strain
     }
 
     /// Makes the second half of the kick, of particles and bodies that forces move. Returns the largest speed at the middle of the next
@@ -87,13 +100,23 @@ impl Simulation {
     pub(super) fn evaluate(&mut self, fields: bool, context: &Context) -> Result<(), RunError> {
         let (mut result, told) = (Ok(()), self.state.breaks.len());
         self.workspace.between.begin();
+        if let Some(cell) = self.cell.as_mut().filter(|_| !self.passes.is_empty()) {
+            cell.begin_evaluation(&mut self.state);
+        }
         for place in 0..self.passes.len() {
             let pass = &self.passes[place];
             result = result.and(pass.apply(&mut self.state, context));
             let (source, next) = (pass.source(), self.passes.get(place + 1).map(|next| next.source()));
             if next != Some(source) {
+                let more = next.is_some_and(|next| next != Source::Walls);
+                if let Some(cell) = self.cell.as_mut().filter(|_| source != Source::Walls) {
+                    cell.end_kind(&mut self.state, !more, context);
+                }
                 self.workspace.between.note(&mut self.state, &self.bodies, source, next);
                 self.done(source.name());
+                if let Some(cell) = self.cell.as_mut().filter(|_| more) {
+                    cell.begin_kind(&mut self.state);
+                }
             }
         }
         if fields && self.fields.act() {

@@ -91,8 +91,11 @@ impl<'a> Blocks<'a> {
 impl Blocks<'_> {
     /// Adds an interaction that the network does not keep.
     fn add_link(&mut self, link: &Link) {
-        let Some(element) = self.network.element(link) else { return };
-        self.add_parts(&element, [link.stiffness, link.damping]);
+        for link in self.network.with_itself(link).iter().flatten() {
+            if let Some(element) = self.network.element(link) {
+                self.add_parts(&element, [link.stiffness, link.damping]);
+            }
+        }
     }
 
     /// Adds an element with these springs and dashpots.

@@ -184,7 +184,7 @@ impl System<'_> {
         for slot in 0..particles.len() {
             let material = particles.material[slot];
             let (mass, radius) = (particles.velocity[slot][3], particles.position[slot][3]);
-            let Some(owner) = (particles.owner[slot] as usize).checked_sub(1) else {
+            let Some(owner) = particles.group(slot) else {
                 let (two, large) = (&mut lightest[material as usize], &mut largest[material as usize]);
                 let is_larger = large.is_none_or(|large| radius > large.radius);
                 if is_larger || two[1].is_none_or(|second| mass < second.mass) {

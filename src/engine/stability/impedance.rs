@@ -15,7 +15,7 @@ impl System<'_> {
             |boundary: usize| self.scene.boundaries[boundary].axes.iter().any(|motion| motion.servo().is_some());
         let mut resistances = vec![[[0.0; 3]; 2]; self.scene.boundaries.len()];
         let particles = &self.state.particles;
-        let owner = |slot: u32| (particles.owner[slot as usize] as usize).checked_sub(1);
+        let owner = |slot: u32| particles.group(slot as usize);
         for pass in self.passes {
             pass.stiffness(self.state, &SearchLimits::default(), &mut |link| {
                 let second = link.boundary.map(|boundary| boundary as usize).or(link.second.and_then(owner));

@@ -150,7 +150,7 @@ impl System<'_> {
         let (link, mut count) = (std::cell::Cell::new(None), 0);
         for pass in self.passes {
             pass.stiffness(self.state, ahead, &mut |told| {
-                if network.element(&told).is_some() {
+                for _ in network.with_itself(&told).iter().flatten().filter(|link| network.element(link).is_some()) {
                     if count == place {
                         link.set(Some(told));
                     }

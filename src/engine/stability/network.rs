@@ -4,7 +4,7 @@ use crate::base::number::{Vector, binade};
 use crate::engine::boundaries::RigidBody;
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
-use crate::engine::state::State;
+use crate::engine::state::{IMAGE, State};
 use nalgebra::Matrix6;
 use std::sync::Arc;
 
@@ -240,7 +240,8 @@ impl<'a> Network<'a> {
 
     /// Adds an interaction, unless nothing moves by it.
     fn add(&mut self, link: &Link, most: usize) {
-        if let Some(element) = self.element(link) {
+        for link in self.with_itself(link).iter().flatten() {
+            let Some(element) = self.element(link) else { continue };
             self.stiffness.push(link.stiffness, self.elements.len(), most);
             self.damping.push(link.damping, self.elements.len(), most);
             self.elements.push(element);
@@ -257,6 +258,31 @@ impl<'a> Network<'a> {
     pub(super) fn parts(&self, place: usize, root: f64) -> [f64; 4] {
         let (stiffness, damping) = (self.stiffness.of(place), self.damping.of(place));
         std::array::from_fn(|k| stiffness[k] + root * damping[k])
+    }
+
+    /// An interaction; of a particle with an image of itself two with what stands still, which are together at least as stiff, as
+    /// |a − b|² ≤ 2 |a|² + 2 |b|².
+    pub(super) fn with_itself(&self, link: &Link) -> [Option<Link>; 2] {
+        if self.state.cell.is_none() {
+            return [Some(*link), None];
+        }
+        let particles = &self.state.particles;
+        let original = |slot: u32| particles.original(slot);
+        let Some(second) =
+            link.second.filter(|&second| second != link.first && original(second) == original(link.first))
+        else {
+            return [Some(*link), None];
+        };
+        let alone = |first: u32, arms: [f64; 2]| Link {
+            first,
+            second: None,
+            arms,
+            stiffness: link.stiffness.map(|part| 2.0 * part),
+            damping: link.damping.map(|part| 2.0 * part),
+            ..*link
+        };
+        let [a, b] = link.arms;
+        [Some(alone(link.first, [a, 0.0])), Some(alone(second, [-b, 0.0]))]
     }
 
     /// An interaction between what moves, if it moves anything.
@@ -290,6 +316,7 @@ impl<'a> Network<'a> {
     pub(super) fn mover(&self, slot: u32) -> Option<usize> {
         let group = match self.state.particles.owner.get(slot as usize) {
             Some(0) => return Some(slot as usize),
+            Some(&IMAGE) => return Some(self.state.particles.original(slot) as usize),
             Some(owner) => *owner as usize - 1,
             None => (slot as usize).checked_sub(self.roots.len())?,
         };

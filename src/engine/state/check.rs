@@ -7,7 +7,7 @@
 
 use super::boundaries::Pressed;
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
-use super::{Exchange, GONE, History, NearParts, Nodes, Pace, Row, State, Underway, WallContacts};
+use super::{CellState, Exchange, GONE, History, IMAGE, NearParts, Nodes, Pace, Row, State, Underway, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -126,6 +126,8 @@ impl State {
             let expected = "the plane and the law of the scene";
             demand((list.boundary, list.law) == (same.boundary, same.law), "walls", 0, expected)?;
         }
+        let cell = |state: &Self| state.cell.as_ref().map(|cell| cell.origin);
+        demand(cell(self) == cell(other), "cell", 0, "the cell of the scene, if it has one")?;
         let expected = "a book where the scene asks for it";
         demand(self.losses.is_some() == other.losses.is_some(), "losses", 0, expected)?;
         demand(self.ledger.is_some() == other.ledger.is_some(), "ledger", 0, expected)
@@ -169,7 +171,12 @@ impl State {
         all_finite(&self.damping_impulse, "damping_impulse")?;
         let sound = self.exchange.as_ref().is_none_or(Exchange::is_sound);
         demand(sound, "exchange", 0, FINITE)?;
-        let stay = self.exchange.is_some() || self.particles.slot.len() == count;
+        let images = self.particles.images();
+        match &self.cell {
+            None => demand(images == 0, "owner", images, "no image without a periodic cell")?,
+            Some(cell) => cell.check(&self.particles)?,
+        }
+        let stay = self.exchange.is_some() || self.particles.slot.len() + images == count;
         demand(stay, "slot", self.particles.slot.len(), "one for each particle")
     }
 }
@@ -233,7 +240,13 @@ impl Particles {
         )?;
         demand(self.bonds.is_empty() || self.bonds.len() == self.slot.len(), "bonds", self.bonds.len(), expected)?;
         self.check_places()?;
-        let numbers = self.id.iter().enumerate().map(|(slot, &id)| self.slot.get(id as usize) == Some(&(slot as u32)));
+        let numbers = self.id.iter().enumerate().map(|(slot, &id)| match self.owner[slot] {
+            IMAGE => self
+                .slot
+                .get(id as usize)
+                .is_some_and(|&slot| self.owner.get(slot as usize).is_some_and(|&it| it != IMAGE)),
+            _ => self.slot.get(id as usize) == Some(&(slot as u32)),
+        });
         demand_all(numbers, "id", "each particle in one slot")?;
         let loads = self.force.iter().chain(&self.torque).map(|row| row[3] == 0.0);
         demand_all(loads, "force", "0 behind each load")?;
@@ -269,7 +282,7 @@ impl Particles {
     /// Whether places that no particle has are marked as such, and those of the later ones can be taken again.
     fn check_places(&self) -> Result<(), StateFault> {
         let there = self.slot.iter().filter(|slot| **slot != GONE).count();
-        demand(there == self.len(), "slot", there, "a slot of each particle, and of no other")?;
+        demand(there + self.images() == self.len(), "slot", there, "a slot of each particle, and of no other")?;
         demand(
             self.numbers.len() <= self.slot.len(),
             "numbers",
@@ -286,7 +299,8 @@ impl Particles {
     /// Whether they are these particles somewhere else. Both have been checked.
     fn check_same(&self, other: &Self) -> Result<(), StateFault> {
         let expected = "one for each of the scene's particles";
-        demand(self.len() == other.len(), "particles", self.len(), expected)?;
+        let own = |of: &Self| of.len() - of.images();
+        demand(own(self) == own(other), "particles", own(self), expected)?;
         demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), expected)?;
         let same = |slot: usize| {
             let there = other.slot[self.id[slot] as usize] as usize;
@@ -295,9 +309,43 @@ impl Particles {
             };
             constants(self, slot) == constants(other, there)
                 && self.material[slot] == other.material[there]
-                && self.owner[slot] == other.owner[there]
+                && [other.owner[there], IMAGE].contains(&self.owner[slot])
         };
         demand_all((0..self.len()).map(same), "particles", "the scene's radius, mass, inertia, material and group")
+    }
+}
+
+impl CellState {
+    /// Whether it can be one of these particles, which have been checked.
+    fn check(&self, particles: &Particles) -> Result<(), StateFault> {
+        let edges = [self.reference, self.edges];
+        let triangular = edges.iter().all(|[a, b, c]| {
+            a[0] > 0.0 && b[1] > 0.0 && c[2] > 0.0 && [a[1], a[2], b[2]].iter().all(|part| *part == 0.0)
+        });
+        demand(triangular, "cell", 0, "edges [ax, 0, 0], [bx, by, 0], [cx, cy, cz] with ax, by, cz above 0")?;
+        let squares = [self.reference, self.edges, self.gradient, self.virial, self.kinetic];
+        all_finite(squares.as_flattened().as_flattened(), "cell")?;
+        let sixes = [self.strain, self.rate, self.start, self.end, self.target, self.target_rate];
+        all_finite(sixes.as_flattened(), "cell")?;
+        all_finite([self.stiffness, self.action, self.mean_stress].as_flattened(), "cell")?;
+        all_finite(&self.impulse, "cell")?;
+        all_finite(&[self.volume_before, self.work], "cell")?;
+        let count = self.images.len();
+        let columns = self.originals.len() == count && self.displaced.len() == count;
+        demand(columns && count == particles.images(), "images", count, "an entry for each image")?;
+        let away = self.edges_away.len();
+        demand(away == particles.slot.len(), "edges_away", away, "one for each particle")?;
+        let counts = self.edges_away.iter().chain(&self.displaced).flatten();
+        demand_all(counts.map(|edges| edges.unsigned_abs() < MOST), "edges_away", "counts that can be reached")?;
+        let mut seen = vec![false; particles.len()];
+        let sound = self.images.iter().zip(&self.originals).map(|(&image, &original)| {
+            let (image, original) = (image as usize, original as usize);
+            let is_image = particles.owner.get(image) == Some(&IMAGE) && !std::mem::replace(&mut seen[image], true);
+            is_image
+                && particles.owner.get(original).is_some_and(|&it| it != IMAGE)
+                && particles.id[image] == particles.id[original]
+        });
+        demand_all(sound, "images", "an image of the particle of its number, each once")
     }
 }
 

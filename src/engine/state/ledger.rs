@@ -20,16 +20,26 @@ pub enum Source {
     Applied,
     /// Springs and dashpots from bodies to the ground.
     Support,
+    /// The streaming motion of a periodic cell that is deformed.
+    Cell,
 }
 
 impl Source {
     /// Kinds that passes make, in the order in which they are added up.
     pub const PASSES: usize = 3;
     /// All kinds, those of passes first.
-    pub const ALL: [Self; Self::COUNT] =
-        [Self::Contacts, Self::Bonds, Self::Walls, Self::Damping, Self::Gravity, Self::Applied, Self::Support];
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Contacts,
+        Self::Bonds,
+        Self::Walls,
+        Self::Damping,
+        Self::Gravity,
+        Self::Applied,
+        Self::Support,
+        Self::Cell,
+    ];
     /// How many there are.
-    pub const COUNT: usize = 7;
+    pub const COUNT: usize = 8;
 
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
@@ -41,6 +51,7 @@ impl Source {
             Self::Gravity => "gravity",
             Self::Applied => "applied",
             Self::Support => "support",
+            Self::Cell => "cell",
         }
     }
 }

@@ -5,6 +5,7 @@
 
 pub mod bonds;
 pub mod boundaries;
+pub mod cell;
 mod check;
 pub mod clock;
 pub mod contacts;
@@ -23,6 +24,7 @@ pub mod snapshot;
 
 pub use bonds::{BondList, Break};
 pub use boundaries::{BoundaryState, Orientation, Stand};
+pub use cell::CellState;
 pub use check::StateFault;
 pub(crate) use check::demand;
 pub use clock::{Clock, Underway};
@@ -35,10 +37,11 @@ pub use losses::{Loss, Losses};
 pub use nodes::Nodes;
 pub use number::InsertedParticle;
 pub use pace::Pace;
-pub use particles::{GONE, Particles};
+pub use particles::{GONE, IMAGE, Particles};
 
 pub use crate::base::number::Row;
 
+use crate::base::geometry::Lattice;
 use in_place::clone_in_place;
 use serde::{Deserialize, Serialize};
 
@@ -85,6 +88,8 @@ pub struct State {
     pub damping_impulse: [f64; 3],
     /// Particles that come and go, where the scene has any.
     pub exchange: Option<Exchange>,
+    /// The periodic cell, where the scene has one.
+    pub cell: Option<CellState>,
 }
 
 clone_in_place!(State {
@@ -106,7 +111,8 @@ clone_in_place!(State {
     losses,
     damping_force,
     damping_impulse,
-    exchange
+    exchange,
+    cell
 });
 
 impl State {
@@ -118,6 +124,20 @@ impl State {
     /// The same, to be changed.
     pub(crate) fn nodes_of_mut(&mut self, boundary: usize) -> Option<&mut Nodes> {
         self.nodes.iter_mut().find(|nodes| nodes.boundary as usize == boundary)
+    }
+
+    /// Where the particle in a slot has come to without being brought back into a periodic cell; elsewhere where it is \[m\].
+    pub(crate) fn unwrapped(&self, slot: usize) -> [f64; 3] {
+        let [x, y, z, _] = self.particles.position[slot];
+        let Some(cell) = &self.cell else { return [x, y, z] };
+        let lattice = Lattice { edges: cell.edges, ..Lattice::default() };
+        let [u, v, w] = lattice.displacement(cell.edges_away[self.particles.id[slot] as usize]);
+        [x + u, y + v, z + w]
+    }
+
+    /// Work of each boundary, and of the periodic cell, on the particles since time 0 \[J\].
+    pub(crate) fn works(&self) -> impl Iterator<Item = f64> + '_ {
+        self.boundaries.iter().map(|boundary| boundary.work).chain(self.cell.iter().map(|cell| cell.work))
     }
 
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
@@ -134,6 +154,9 @@ impl State {
         }
         if let Some(exchange) = &mut self.exchange {
             exchange.begin_counting();
+        }
+        if let Some(cell) = &mut self.cell {
+            cell.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

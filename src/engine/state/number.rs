@@ -1,6 +1,6 @@
 //! Adds particles to the state and removes them from it, with their entries in every list.
 
-use super::{BondList, Columns, ContactList, GONE, NearParts, Particles, Row, State, WallContacts};
+use super::{BondList, Columns, ContactList, GONE, IMAGE, NearParts, Particles, Row, State, WallContacts};
 use crate::base::geometry::Quaternion;
 
 /// A particle to be added.
@@ -19,6 +19,41 @@ pub struct InsertedParticle {
 }
 
 impl Particles {
+    /// Keeps the rows of slots for which this holds, in their order. Which slot a particle has is to be found again.
+    pub(crate) fn keep_rows(&mut self, stays: impl Fn(usize) -> bool) {
+        for rows in [
+            &mut self.position,
+            &mut self.velocity,
+            &mut self.angular_velocity,
+            &mut self.force,
+            &mut self.torque,
+            &mut self.orientation,
+        ] {
+            keep(rows, &stays);
+        }
+        for numbers in [&mut self.material, &mut self.owner, &mut self.id] {
+            keep(numbers, &stays);
+        }
+    }
+
+    /// Adds an image of the particle in each of these slots.
+    pub(crate) fn add_images(&mut self, originals: &[u32]) {
+        for rows in [&mut self.position, &mut self.velocity, &mut self.angular_velocity, &mut self.orientation] {
+            if !rows.is_empty() {
+                let copies: Vec<Row> = originals.iter().map(|&slot| rows[slot as usize]).collect();
+                rows.extend(copies);
+            }
+        }
+        for loads in [&mut self.force, &mut self.torque] {
+            loads.resize(loads.len() + originals.len(), [0.0; 4]);
+        }
+        for numbers in [&mut self.material, &mut self.id] {
+            let copies: Vec<u32> = originals.iter().map(|&slot| numbers[slot as usize]).collect();
+            numbers.extend(copies);
+        }
+        self.owner.resize(self.owner.len() + originals.len(), IMAGE);
+    }
+
     /// How many particles the scene itself has: the index of the first one that was inserted.
     fn own(&self) -> usize {
         self.slot.len() - self.numbers.len()
@@ -79,19 +114,7 @@ impl Particles {
                 }
             }
         }
-        for rows in [
-            &mut self.position,
-            &mut self.velocity,
-            &mut self.angular_velocity,
-            &mut self.force,
-            &mut self.torque,
-            &mut self.orientation,
-        ] {
-            keep(rows, |slot| !goes[slot]);
-        }
-        for numbers in [&mut self.material, &mut self.owner, &mut self.id] {
-            keep(numbers, |slot| !goes[slot]);
-        }
+        self.keep_rows(|slot| !goes[slot]);
         for (slot, &index) in self.id.iter().enumerate() {
             self.slot[index as usize] = slot as u32;
         }

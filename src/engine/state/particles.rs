@@ -7,6 +7,9 @@ use serde::{Deserialize, Serialize};
 /// The slot of a particle that is no longer there.
 pub const GONE: u32 = u32::MAX;
 
+/// The owner of an image in a periodic cell: the particle of the same index moves it, and gets its loads.
+pub const IMAGE: u32 = u32::MAX;
+
 /// Particles in the order of the neighbour list, rows of 32 bytes.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Particles {
@@ -31,11 +34,11 @@ pub struct Particles {
     /// Index of the material.
     #[serde(with = "plain")]
     pub material: Vec<u32>,
-    /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs.
+    /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs; [`IMAGE`], another particle.
     #[serde(with = "plain")]
     pub owner: Vec<u32>,
-    /// Index of the particle in each slot here: into the scene's particles, and behind these into the places of those that come
-    /// later. A place is taken again when its particle has gone; the scene's own never are.
+    /// Index of the particle in each slot here, of images that of their particle: into the scene's particles, and behind these into
+    /// the places of those that come later. A place is taken again when its particle has gone; the scene's own never are.
     #[serde(with = "plain")]
     pub id: Vec<u32>,
     /// Slot here, by index; [`GONE`] where there is no such particle any more.
@@ -94,7 +97,24 @@ impl Particles {
         there.map(|(&[made, broken], _)| f64::from(broken) / f64::from(made.max(1))).collect()
     }
 
-    /// How many there are.
+    /// The slot of the particle that moves by the forces on one in this slot: itself, or that of which it is an image.
+    pub(crate) fn original(&self, slot: u32) -> u32 {
+        let image = self.owner[slot as usize] == IMAGE;
+        if image { self.slot[self.id[slot as usize] as usize] } else { slot }
+    }
+
+    /// The boundary to whose group the particle in a slot belongs.
+    pub(crate) fn group(&self, slot: usize) -> Option<usize> {
+        let owner = self.owner[slot];
+        if owner == IMAGE { None } else { (owner as usize).checked_sub(1) }
+    }
+
+    /// How many of them are images.
+    pub(crate) fn images(&self) -> usize {
+        self.owner.iter().filter(|owner| **owner == IMAGE).count()
+    }
+
+    /// How many there are, images included.
     pub fn len(&self) -> usize {
         self.position.len()
     }

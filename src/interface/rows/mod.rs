@@ -4,6 +4,7 @@
 //! description, the unit, its page and `history.csv` follow from the rows; nothing else lists variables.
 
 mod boundaries;
+mod cell;
 mod exchange;
 mod probes;
 mod regions;
@@ -14,6 +15,7 @@ use crate::base::quantity::BoundaryIndex;
 use crate::interface::{Causality, Variable};
 use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
+use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
@@ -60,7 +62,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         .chain(each(&OF_OUTLETS, scene.outlets.len()))
         .chain(each(&OF_METERS, scene.meters.len()))
         .chain(each(&OF_PROBES, scene.probes.len()));
-    let of_scene = OF_SCENE.iter().chain(&OF_DOMAIN).chain(&OF_LOSSES).map(|row| (row, none));
+    let of_scene = OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).map(|row| (row, none));
     let places = of_boundaries
         .chain(each(&OF_REGIONS, scene.regions.len()))
         .chain(exchange)
@@ -74,7 +76,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
     let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN).chain(&OF_PROBES);
     let of_parts = OF_BOUNDARIES.iter().chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
-    of_parts.chain(&OF_SCENE).chain(&OF_LOSSES)
+    of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES)
 }
 
 impl Source {
@@ -97,7 +99,7 @@ impl Source {
     fn variable(self, scene: &Scene) -> Variable {
         let Self { row, at } = self;
         let owner = match row.each {
-            Each::Scene => "",
+            Each::Scene | Each::Strain | Each::Shear => "",
             Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
             Each::Insertion => &scene.insertions[at.place()].name,

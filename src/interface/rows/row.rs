@@ -1,9 +1,10 @@
 //! The description of a kind of variable, and what many kinds have in common.
 
+use crate::base::geometry::lattice::STRAINS;
 use crate::base::quantity::BoundaryIndex;
 use crate::engine::averages::{Content, Sight};
 use crate::engine::simulation::{Input, Simulation};
-use crate::engine::state::{BondList, BoundaryState, Exchange, Nodes, State};
+use crate::engine::state::{BondList, BoundaryState, CellState, Exchange, Nodes, State};
 use crate::interface::{Findings, Quantity, Value, Variability};
 use crate::scene::Scene;
 
@@ -39,6 +40,10 @@ pub(in crate::interface) enum Each {
     RegionAxis,
     /// One for each region and component of a symmetric tensor: `<region>.<name>.<component>`.
     Component,
+    /// One for each component of the strain of the cell: `<name>.<component>`.
+    Strain,
+    /// The same without the component in the name, for one that is there once: `<name>`.
+    Shear,
     /// One for each probe: `<probe>.<name>`.
     Probe,
     /// One for each probe and axis: `<probe>.<name>.<axis>`.
@@ -51,6 +56,8 @@ impl Each {
         match self {
             Self::Axis | Self::Node | Self::RegionAxis | Self::ProbeAxis => &AXES,
             Self::Component => &COMPONENTS,
+            Self::Strain => &STRAINS,
+            Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary
             | Self::Region
@@ -149,6 +156,11 @@ impl Present<'_> {
     /// What is known of particles that come and go, in a scene that has any.
     pub(super) fn exchanged<T: Default>(&self, read: impl FnOnce(&Exchange) -> T) -> T {
         self.simulation.state().exchange.as_ref().map(read).unwrap_or_default()
+    }
+
+    /// What is known of the cell, in a scene that has one.
+    pub(super) fn cell(&self, read: impl FnOnce(&CellState) -> f64) -> f64 {
+        self.simulation.state().cell.as_ref().map_or(0.0, read)
     }
 
     /// The lists of bonds.

@@ -36,7 +36,7 @@ pub(super) struct Experiment {
 impl Experiment {
     /// Runs it: all inputs keep their start values. The simulation is used up.
     pub(super) fn run(mut simulation: Simulation, interface: &Interface) -> Result<Self, RunError> {
-        let particles = simulation.state().particles.position.len();
+        let particles = simulation.state().particles.len();
         let count = (WORK / (STEPS * (particles + SMALL))).clamp(1, LONGEST);
         let step = simulation.state().clock.step * count as f64;
         let inputs: Vec<_> = interface.inputs().map(|(_, variable)| variable).collect();

@@ -45,9 +45,10 @@ const BOUNDARY: [f64; 3] = [96.0, 104.0, 112.0];
 /// The picture as a PNG file; none of a scene in which nothing is to be seen.
 pub(super) fn png(scene: &Scene, state: &State) -> Option<Vec<u8>> {
     let seen = |point: [f64; 3]| VIEW.map(|axis| Vector::from(axis).dot(point.into()));
-    let spheres: Vec<Sphere> = (state.particles.position.iter().zip(&state.particles.id))
-        .map(|(&[x, y, z, radius], id)| {
-            let set = scene.particles.get(*id as usize).map_or(0, |particle| particle.set.index());
+    let spheres: Vec<Sphere> = (state.particles.slots())
+        .map(|slot| {
+            let ([x, y, z, radius], id) = (state.particles.position[slot], state.particles.id[slot]);
+            let set = scene.particles.get(id as usize).map_or(0, |particle| particle.set.index());
             Sphere { centre: seen([x, y, z]), radius, colour: COLOURS[set % COLOURS.len()] }
         })
         .collect();

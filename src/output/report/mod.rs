@@ -10,6 +10,7 @@ mod trial;
 
 pub use stiffness::{StiffnessReport, stiffness};
 
+use crate::base::geometry::lattice::STRAINS;
 use crate::base::words::counted;
 use crate::engine::simulation::Simulation;
 use crate::interface::Interface;
@@ -18,7 +19,7 @@ use crate::output::results::files::Checkpoint;
 use crate::output::results::schedule::Schedule;
 use crate::output::run::remarks::remarks;
 use crate::scene::exchange::{Amount, Outside};
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Insertion, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Insertion, Scene, Step};
 use rules::rules;
 use serde::Serialize;
 use std::fmt;
@@ -246,6 +247,18 @@ fn exchange(scene: &Scene) -> Vec<String> {
             .map(|outlet| format!("outlet {}: looked at after each half of the smallest radius", outlet.name)),
     );
     uses.extend(scene.meters.iter().map(|meter| format!("flow meter {}: every particle in every step", meter.name)));
+    if let Some(cell) = &scene.cell {
+        let edges = ["x", "y", "z"].into_iter().zip(cell.lattice.periodic).filter(|(_, periodic)| *periodic);
+        let edges: Vec<&str> = edges.map(|(name, _)| name).collect();
+        let moves = STRAINS.into_iter().zip(cell.motion).filter_map(|(name, motion)| match motion {
+            CellMotion::Fixed => None,
+            CellMotion::Driven => Some(format!("{name} driven")),
+            CellMotion::Servo(servo) => Some(format!("{name} servo, from {} Pa on", servo.stress)),
+        });
+        let moves: Vec<String> = moves.collect();
+        let moves = if moves.is_empty() { "fixed".to_owned() } else { moves.join(", ") };
+        uses.push(format!("cell: repeats along {}; {moves}", edges.join(", ")));
+    }
     if scene.domain.is_some() && scene.outside == Outside::Remove {
         uses.push("domain: takes away what leaves it".to_owned());
     }

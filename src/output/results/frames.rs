@@ -1,29 +1,33 @@
-//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries.
+//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries, the cell.
 
 use super::boundaries::boundaries;
 use super::job::Job;
 use super::vtk::{Kind, PointCloud, Values};
+use crate::base::geometry::Lattice;
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
-use crate::engine::state::Particles;
+use crate::engine::state::{CellState, Particles};
 use crate::scene::Scene;
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
-pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 4] {
-    let Job::Frame { particles: bodies, contacts: touching, bonds: living, boundaries: moved, .. } = job else {
-        return [const { None }; 4];
+pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 5] {
+    let Job::Frame { particles: bodies, contacts: touching, bonds: living, boundaries: moved, cell: lies, .. } = job
+    else {
+        return [const { None }; 5];
     };
     let loads = || (touching.as_deref().unwrap_or_default(), living.as_deref().unwrap_or_default());
     [
-        Some(particles(scene, &bodies)),
+        Some(particles(scene, &bodies, lies.as_deref())),
         touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, &bodies, touching)),
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
         moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
+        lies.as_deref().map(cell),
     ]
 }
 
 /// All particles, in the order of the scene whatever their order in memory, those that came later behind them.
-pub(crate) fn particles(scene: &Scene, particles: &Particles) -> PointCloud {
+pub(crate) fn particles(scene: &Scene, particles: &Particles, cell: Option<&CellState>) -> PointCloud {
     let slots = || particles.slots();
+    let [points, unwrapped] = places(scene, particles, cell);
     let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
     let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
     let damage = (!particles.bonds.is_empty()).then(|| ("damage", Values::Scalars(particles.damage())));
@@ -45,10 +49,48 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles) -> PointCloud {
         ("orientation", Values::Quaternions(rows))
     });
     PointCloud {
-        points: three(&particles.position),
-        fields: fields.into_iter().chain(sets).chain(orientation).chain(damage).collect(),
+        points,
+        fields: fields
+            .into_iter()
+            .chain(cell.map(|_| ("unwrapped", Values::Vectors(unwrapped))))
+            .chain(sets)
+            .chain(orientation)
+            .chain(damage)
+            .collect(),
         ..PointCloud::default()
     }
+}
+
+/// Where the particles are, brought back into the cell if there is one, and where they would be without \[m\].
+fn places(scene: &Scene, particles: &Particles, cell: Option<&CellState>) -> [Vec<f64>; 2] {
+    let lattice = cell.zip(scene.cell.as_ref()).map(|(lies, cell)| Lattice { edges: lies.edges, ..cell.lattice });
+    let mut all = [Vec::new(), Vec::new()];
+    for slot in particles.slots() {
+        let [x, y, z, _] = particles.position[slot];
+        let mut both = [[x, y, z]; 2];
+        if let (Some(lattice), Some(cell)) = (&lattice, cell) {
+            let away = cell.edges_away[particles.id[slot] as usize];
+            let (out, back) = (lattice.displacement(away), lattice.displacement(lattice.edges_away([x, y, z])));
+            for axis in 0..3 {
+                both[0][axis] -= back[axis];
+                both[1][axis] += out[axis];
+            }
+        }
+        all.iter_mut().zip(both).for_each(|(all, place)| all.extend(place));
+    }
+    all
+}
+
+/// The edges of the cell as lines.
+fn cell(cell: &CellState) -> PointCloud {
+    let corner = |number: usize| {
+        let along = |edge: usize, axis: usize| if number >> edge & 1 == 1 { cell.edges[edge][axis] } else { 0.0 };
+        [0, 1, 2].map(|axis| cell.origin[axis] + along(0, axis) + along(1, axis) + along(2, axis))
+    };
+    let lines =
+        (0..8).flat_map(|from| (0..3).map(move |edge| [from, from | 1 << edge]).filter(|[from, to]| from != to));
+    let points = lines.flatten().flat_map(corner).collect();
+    PointCloud { points, kind: Kind::Lines, ..PointCloud::default() }
 }
 
 /// A point for each contact: where it is, its forces on the first body, and the two bodies.
@@ -78,10 +120,6 @@ pub(crate) fn contacts(scene: &Scene, particles: &Particles, contacts: &[Contact
 /// A line for each bond, from body i to body j or to its foot on the plane: what it carries. The ids of the bodies are
 /// those of the points; a foot has −1, and `boundary` is then the place of the plane in the scene (otherwise −1).
 pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) -> PointCloud {
-    let position = |particle: u32| {
-        let [x, y, z, _] = particles.position[particles.slot[particle as usize] as usize];
-        [x, y, z]
-    };
     let id = |particle: u32| i64::from(number(scene, particles, particle));
     let ids = bonds.iter().flat_map(|bond| [id(bond.first), bond.second.map_or(-1, id)]).collect();
     let plane = |bond: &BondRecord| {
@@ -91,7 +129,7 @@ pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) 
     let vectors = |of: fn(&BondRecord) -> [f64; 3]| Values::Vectors(bonds.iter().flat_map(of).collect());
     let scalars = |of: fn(&BondRecord) -> f64| Values::Scalars(bonds.iter().map(of).collect());
     PointCloud {
-        points: bonds.iter().flat_map(|bond| [position(bond.first), bond.other]).flatten().collect(),
+        points: bonds.iter().flat_map(|bond| [bond.position, bond.other]).flatten().collect(),
         kind: Kind::Lines,
         fields: vec![("id", Values::Integers(ids))],
         cell_fields: vec![

@@ -1,7 +1,7 @@
 //! What is handed to the thread that writes.
 
 use crate::engine::simulation::{BondRecord, ContactRecord};
-use crate::engine::state::{BoundaryState, Break, Nodes, Particles, State};
+use crate::engine::state::{BoundaryState, Break, CellState, Nodes, Particles, State};
 use crate::interface::Value;
 use std::sync::mpsc::SyncSender;
 
@@ -28,6 +28,8 @@ pub(crate) enum Job {
         bonds: Option<Vec<BondRecord>>,
         /// Where the boundaries and their nodes stand, if the scene asks for them.
         boundaries: Option<(Vec<BoundaryState>, Vec<Nodes>)>,
+        /// The periodic cell, if the scene has one.
+        cell: Option<Box<CellState>>,
     },
     /// A checkpoint.
     Checkpoint(Box<State>),

@@ -20,5 +20,6 @@ pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
     let bonds = (!scene.bonds.is_empty()).then(|| simulation.bonds());
     let boundaries =
         output.boundaries.then(|| (simulation.state().boundaries.clone(), simulation.state().nodes.clone()));
-    Job::Frame { time, particles, contacts, bonds, boundaries }
+    let cell = simulation.state().cell.clone().map(Box::new);
+    Job::Frame { time, particles, contacts, bonds, boundaries, cell }
 }

@@ -1,9 +1,9 @@
 //! The momentum balance of the particles and bodies that move freely.
 
 use crate::engine::simulation::Simulation;
-use crate::engine::state::State;
 use crate::engine::state::boundaries::Inertial;
 use crate::engine::state::exchange::NetExchange;
+use crate::engine::state::{IMAGE, State};
 use crate::scene::Scene;
 use serde::Serialize;
 
@@ -108,7 +108,7 @@ fn account(scene: &Scene, state: &State) -> Account {
     for (slot, velocity) in particles.velocity.iter().enumerate() {
         let free = free_axes(scene, particles.owner[slot]);
         // The spheres of a group that turns have further velocities, whose momenta cancel.
-        let along = match (particles.owner[slot] as usize).checked_sub(1) {
+        let along = match particles.group(slot) {
             None => [velocity[0], velocity[1], velocity[2]],
             Some(group) => state.boundaries[group].velocity,
         };
@@ -129,6 +129,9 @@ fn account(scene: &Scene, state: &State) -> Account {
             }
         }
     }
+    if let Some(cell) = &state.cell {
+        boundaries.iter_mut().zip(cell.impulse).for_each(|(sum, part)| *sum += part);
+    }
     let net = state.exchange.as_ref().map_or_else(NetExchange::default, |exchange| exchange.net);
     Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, net, time: state.clock.time }
 }
@@ -136,6 +139,7 @@ fn account(scene: &Scene, state: &State) -> Account {
 /// Along which axes forces move a particle with this owner.
 fn free_axes(scene: &Scene, owner: u32) -> [bool; 3] {
     match (owner as usize).checked_sub(1) {
+        _ if owner == IMAGE => [false; 3],
         None => [true; 3],
         Some(group) => [0, 1, 2].map(|axis| scene.boundaries[group].axes[axis].is_free()),
     }

@@ -155,7 +155,7 @@ impl Summary {
     ) -> Self {
         let state = simulation.state();
         let session_steps = state.clock.steps - meter.steps_before;
-        let particles = state.particles.len();
+        let particles = state.particles.slots().count();
         let nanoseconds = meter.stepping.as_secs_f64() * 1e9;
         let share = |count: f64| (count > 0.0).then(|| nanoseconds / count);
         Self {
@@ -291,6 +291,8 @@ fn energy_book(simulation: &Simulation) -> Option<EnergyBook> {
     let kinetic = simulation.kinetic_energy();
     let residual = simulation.energy_residual_beside(kinetic)?;
     let exchanged = simulation.exchanged();
+    let deforms = simulation.scene().cell.is_some();
+    let sources = Source::ALL.into_iter().filter(|source| deforms || *source != Source::Cell);
     let scale = ledger.turnover.max(kinetic).max(ledger.initial_kinetic).max(exchanged.turnover);
     Some(EnergyBook {
         initial_kinetic: ledger.initial_kinetic,
@@ -298,7 +300,7 @@ fn energy_book(simulation: &Simulation) -> Option<EnergyBook> {
         initial_elastic: ledger.initial_elastic,
         elastic: simulation.elastic_energy(),
         dissipated: simulation.dissipated_energy().unwrap_or(0.0),
-        work: Source::ALL.into_iter().map(|source| (source.name(), ledger.work_of(source))).collect(),
+        work: sources.map(|source| (source.name(), ledger.work_of(source))).collect(),
         residual,
         relative_residual: if scale > 0.0 { residual / scale } else { 0.0 },
     })

@@ -1,6 +1,7 @@
 //! Springs of contacts and bonds, from the lists of one scene to those of another.
 
 use super::{Description, Numbers};
+use crate::engine::cell::images::{ImageSlots, whereabouts};
 use crate::engine::simulation::Simulation;
 use crate::engine::state::contacts::{BONDED, RELEASED, SILENT};
 use crate::engine::state::{BondList, History, Row, State, WallContacts};
@@ -83,11 +84,17 @@ fn unbonded(flags: u8) -> u8 {
 }
 
 /// Puts what is remembered of touching bodies into the lists of the laws that govern them here. Slots are those of the
-/// scene.
-pub(super) fn put_contacts(scene: &Scene, state: &mut State, reached: &State, known: (&Description, &Numbers)) {
+/// scene, `rows` those here of the slots there.
+pub(super) fn put_contacts(
+    scene: &Scene,
+    state: &mut State,
+    reached: &State,
+    known: (&Description, &Numbers),
+    rows: &[Option<u32>],
+) {
     let (from, numbers) = known;
     let (memories, governing) = (Memories::of(scene, from), scene.governing_laws());
-    let here = |slot: u32| numbers.at(reached.particles.id[slot as usize]);
+    let here = |slot: u32| rows[slot as usize];
     for (there, list) in reached.contacts.iter().enumerate() {
         for (pair, _) in list.flags.iter().enumerate().filter(|(_, flags)| **flags != 0) {
             let (Some(a), Some(b)) = (here(list.first[pair]), here(list.second[pair])) else { continue };
@@ -151,6 +158,7 @@ impl Simulation {
     /// Puts bonds of laws of the same name in the place of those that were made anew. Returns what stays behind, in words.
     pub(super) fn put_bonds(&mut self, reached: &State, from: &Description, numbers: &Numbers) -> Vec<String> {
         let (mut left, mut taken) = (Vec::new(), vec![false; self.scene.bonds.len()]);
+        let mut images = ImageSlots::of(&self.state);
         for ((name, formulation, plane), list) in from.bonds().iter().zip(&reached.bonds) {
             let same = |bond: &crate::scene::Bond| {
                 let here = bond.plane.map(|plane| self.scene.boundaries[plane.index()].name.clone());
@@ -158,7 +166,7 @@ impl Simulation {
             };
             match self.scene.bonds.iter().position(same) {
                 Some(law) => {
-                    let here = self.bonds_here(list, reached, numbers, &self.scene.bond_law(law));
+                    let here = self.bonds_here(list, (reached, numbers), &self.scene.bond_law(law), &mut images);
                     self.state.bonds[law] = here;
                     taken[law] = true;
                     let missing = list.first.len() - self.state.bonds[law].first.len();
@@ -173,26 +181,40 @@ impl Simulation {
                 )),
             }
         }
+        images.make(&mut self.state);
         self.count_bonds(reached, numbers, &taken);
         left
     }
 
     /// The bonds of a list between particles that are here, in the present order of the particles.
-    fn bonds_here(&self, list: &BondList, reached: &State, numbers: &Numbers, law: &Law) -> BondList {
-        let slot = |old: u32| {
-            let here = numbers.at(reached.particles.id[old as usize])?;
-            Some(self.state.particles.slot[here as usize])
-        };
+    fn bonds_here(
+        &self,
+        list: &BondList,
+        (reached, numbers): (&State, &Numbers),
+        law: &Law,
+        images: &mut ImageSlots,
+    ) -> BondList {
+        let away = reached.cell.as_ref().map(|cell| whereabouts(cell, &reached.particles));
+        let index = |old: u32| numbers.at(reached.particles.id[old as usize]);
         // Where the other law remembered no rates, they begin with 0, which the first time step forgets.
         let damping = vec![Vec::new(); law.damping_rows()];
         let mut new = BondList { rows: vec![Vec::new(); list.rows.len()], damping, ..BondList::default() };
         for bond in 0..list.first.len() {
-            let second = list.second.get(bond).map(|&second| slot(second));
-            let (Some(first), true) = (slot(list.first[bond]), second.is_none_or(|second| second.is_some())) else {
-                continue;
-            };
-            new.first.push(first);
-            new.second.extend(second.flatten());
+            let there = (list.first[bond], list.second.get(bond).copied());
+            let (Some(first), second) = (index(there.0), there.1.map(index)) else { continue };
+            let slot = |index: u32| self.state.particles.slot[index as usize];
+            match (second, &away, there.1) {
+                (Some(None), ..) => continue,
+                (Some(Some(second)), Some(away), Some(other)) => {
+                    let [first, second] = images.pair(&self.state, [first, second], [there.0, other], away);
+                    new.first.push(first);
+                    new.second.push(second);
+                }
+                (second, ..) => {
+                    new.first.push(slot(first));
+                    new.second.extend(second.flatten().map(slot));
+                }
+            }
             new.foot.extend(list.foot.get(bond));
             for (column, row) in new.rows.iter_mut().zip(&list.rows) {
                 column.push(row[bond]);

@@ -13,9 +13,10 @@ pub use description::Description;
 use super::{RunError, Simulation, assemble};
 use crate::base::geometry::Quaternion;
 use crate::engine::boundaries::{nodes, placing, rigid_body};
+use crate::engine::cell::images;
 use crate::engine::state::{State, StateFault};
 use crate::laws::bond::creation::Moment;
-use crate::scene::Scene;
+use crate::scene::{CellMotion, Scene};
 use std::sync::Arc;
 
 /// Distance over the radius below which a particle of a group is where its group has it.
@@ -53,6 +54,10 @@ impl Simulation {
     /// The scene in a state that another scene has reached, and what of that state could not be taken over. A state from
     /// outside has been checked by [`Description::check`].
     pub fn taken_over(scene: Arc<Scene>, reached: &State, from: &Description) -> Result<(Self, Vec<String>), RunError> {
+        let origin = |state: &State| state.cell.as_ref().map(|cell| cell.origin);
+        if origin(&assemble::state(&scene)) != origin(reached) {
+            return Err(RunError::CellElsewhere);
+        }
         let mut numbers = Numbers::of(&scene, from);
         let mut state = assemble::state(&scene);
         let mut left = from.differences(&scene);
@@ -63,7 +68,9 @@ impl Simulation {
         state.clock.rebuilds = reached.clock.rebuilds;
         put_particles(&mut state, reached, &numbers);
         put_boundaries(&scene, &mut state, reached, from);
-        history::put_contacts(&scene, &mut state, reached, (from, &numbers));
+        let rows = images::take_over(&mut state, reached, |there| numbers.at(there));
+        begin_inputs(&scene, &mut state);
+        history::put_contacts(&scene, &mut state, reached, (from, &numbers), &rows);
         let mut simulation = Self::with(scene, state);
         simulation.give_orientations();
         let there: Vec<_> = simulation.state.particles.position.clone();
@@ -79,6 +86,15 @@ impl Simulation {
         simulation.rebuild(&simulation.standing());
         simulation.start()?;
         Ok((simulation, left))
+    }
+}
+
+/// Lets driven strains of a cell begin with what they have come to.
+fn begin_inputs(scene: &Scene, state: &mut State) {
+    if let (Some(scene), Some(cell)) = (&scene.cell, &mut state.cell) {
+        for component in (0..6).filter(|&component| scene.motion[component] == CellMotion::Driven) {
+            cell.target[component] = cell.strain[component];
+        }
     }
 }
 

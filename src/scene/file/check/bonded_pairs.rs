@@ -4,6 +4,7 @@ use super::finding::Finding;
 use crate::base::document::Mistake;
 use crate::base::quantity::BoundaryIndex;
 use crate::laws::bond::creation::Moment;
+use crate::scene::cell::with_images;
 use crate::scene::packing::overlaps::for_each_overlap;
 use crate::scene::{Bond, Particle, SceneDraft};
 
@@ -68,12 +69,13 @@ fn idle_law(scene: &SceneDraft, bond: &Bond) -> Option<Finding> {
     let members: Vec<usize> =
         (0..scene.particles.len()).filter(|index| bond.between.contains(&scene.particles[*index].set)).collect();
     let closest = |reach: f64| {
-        let spheres: Vec<([f64; 3], f64)> =
+        let mut spheres: Vec<([f64; 3], f64)> =
             members.iter().map(|index| (scene.particles[*index].position, 0.5 * reach)).collect();
+        let originals = with_images(scene, &mut spheres, |_| reach);
         let mut least = f64::INFINITY;
         for_each_overlap(&spheres, |i, j, overlap| {
-            let sets = [i, j].map(|place| scene.particles[members[place as usize]].set);
-            if bond.joins(sets[0], sets[1]) {
+            let sets = [i, j].map(|place| scene.particles[members[originals[place as usize] as usize]].set);
+            if (i.min(j) as usize) < members.len() && bond.joins(sets[0], sets[1]) {
                 least = least.min(reach - overlap);
             }
         });

@@ -9,7 +9,7 @@ use crate::laws::bond::creation::ListedPairs;
 use crate::laws::bond::keys::Keys;
 use crate::scene::Source;
 use crate::scene::import::REPORTED;
-use crate::scene::{Bond, Boundary, Particle, Run, SceneDraft, Step};
+use crate::scene::{Bond, Boundary, Cell, Particle, Run, SceneDraft, Step};
 
 /// All bond laws.
 pub(super) fn bonds(
@@ -21,6 +21,7 @@ pub(super) fn bonds(
     run: &Run,
     faults: &mut Faults,
 ) -> Vec<Bond> {
+    let cell = written.cell.as_ref().and_then(|keys| keys.cell(&mut |_, _| {}));
     let mut bonds = Vec::new();
     for (name, keys) in &written.bonds {
         let table = format!("bond.{name}");
@@ -34,7 +35,7 @@ pub(super) fn bonds(
         contradictions(keys, run, &table, faults);
         if let (Some((between, plane)), Some(pairs)) = (between, pairs) {
             let bond = Bond { name: name.clone(), keys: keys.clone(), between, plane, pairs };
-            outside_sets(&bond, &table, &born.particles, faults);
+            outside_sets(&bond, &table, (&born.particles, cell.as_ref()), faults);
             bonds.push(bond);
         }
     }
@@ -50,7 +51,7 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
             faults.add(&table, "create", listed_at_plane());
         }
         contradictions(&bond.keys, &draft.run, &table, faults);
-        outside_sets(bond, &table, &draft.particles, faults);
+        outside_sets(bond, &table, (&draft.particles, draft.cell.as_ref()), faults);
     }
 }
 
@@ -193,7 +194,7 @@ fn from_file(file: &str, source: &Source, table: &str, faults: &mut Faults) -> O
 }
 
 /// Reports listed pairs that are not of the two sets, or further apart than the law allows.
-fn outside_sets(bond: &Bond, table: &str, particles: &[Particle], faults: &mut Faults) {
+fn outside_sets(bond: &Bond, table: &str, (particles, cell): (&[Particle], Option<&Cell>), faults: &mut Faults) {
     let particle = |index: u32| &particles[index as usize];
     let strange = bond.pairs.iter().find(|[a, b]| !bond.joins(particle(*a).set, particle(*b).set));
     if let Some([a, b]) = strange {
@@ -201,17 +202,17 @@ fn outside_sets(bond: &Bond, table: &str, particles: &[Particle], faults: &mut F
         let expected = "pairs of the two sets in between".to_owned();
         faults.add(table, "create", Mistake::Unexpected { found, expected });
     }
-    let far = |pair: &&[u32; 2]| bond.create_distance().is_some_and(|most| distance(particles, **pair) >= most);
+    let distance = |[a, b]: [u32; 2]| {
+        let (p, q) = (particle(a).position, particle(b).position);
+        match cell {
+            Some(cell) => cell.lattice.distance(p, q),
+            None => (0..3).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum::<f64>().sqrt(),
+        }
+    };
+    let far = |pair: &&[u32; 2]| bond.create_distance().is_some_and(|most| distance(**pair) >= most);
     if let Some([a, b]) = bond.pairs.iter().find(far) {
-        let found =
-            format!("{:.3e} between {} and {}", distance(particles, [*a, *b]), particle(*a).id.0, particle(*b).id.0);
+        let found = format!("{:.3e} between {} and {}", distance([*a, *b]), particle(*a).id.0, particle(*b).id.0);
         let expected = "listed pairs nearer than this distance".to_owned();
         faults.add(table, "create_distance", Mistake::Unexpected { found, expected });
     }
-}
-
-/// Distance of two centres \[m\].
-fn distance(particles: &[Particle], [a, b]: [u32; 2]) -> f64 {
-    let (p, q) = (particles[a as usize].position, particles[b as usize].position);
-    (0..3).map(|axis| (p[axis] - q[axis]) * (p[axis] - q[axis])).sum::<f64>().sqrt()
 }

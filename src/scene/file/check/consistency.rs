@@ -5,6 +5,7 @@ use super::finding::Finding;
 use crate::base::document::Mistake;
 use crate::laws::bond::creation::ContactPolicy;
 use crate::laws::contact::{Law, MaterialPair, Missing};
+use crate::scene::cell::with_images;
 use crate::scene::packing::overlaps::for_each_overlap;
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, SceneDraft, plane_objections};
 use std::collections::BTreeSet;
@@ -244,13 +245,19 @@ fn overlaps(scene: &SceneDraft, findings: &mut Vec<Finding>) {
         return;
     }
     let group = rigid_groups(scene);
-    let spheres: Vec<([f64; 3], f64)> =
+    let mut spheres: Vec<([f64; 3], f64)> =
         scene.particles.iter().map(|particle| (particle.position, particle.radius)).collect();
+    let largest = spheres.iter().fold(0.0, |most: f64, (_, radius)| most.max(*radius));
+    let originals = with_images(scene, &mut spheres, |radius| radius + largest);
     let permitted = scene.run.max_overlap;
     let bonded = Bonded::of(scene);
     let mut worst: Option<(f64, u32, u32)> = None;
     let mut count = 0;
     for_each_overlap(&spheres, |i, j, overlap| {
+        if i.min(j) as usize >= scene.particles.len() {
+            return; // two images
+        }
+        let (i, j) = (originals[i as usize], originals[j as usize]);
         let (i, j) = (i.min(j) as usize, i.max(j) as usize);
         let (a, b) = (&scene.particles[i], &scene.particles[j]);
         let relative = overlap / a.radius.min(b.radius);

@@ -23,6 +23,7 @@ use super::tables::{RunTable, StepKey};
 use crate::base::document::{Document, Faults, Mistake, SceneErrors};
 use crate::laws::region;
 use crate::laws::surface::Files;
+use crate::scene::cell;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
 use crate::scene::{Accuracy, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
@@ -55,6 +56,7 @@ pub(super) fn scene(
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
+    let cell = written.cell.as_ref().and_then(|keys| keys.cell(&mut |key, mistake| faults.add("cell", key, mistake)));
     let (probes, derived) = looks(&written, &born.sets, &mut faults);
     let mut draft = SceneDraft {
         about: written.about,
@@ -72,6 +74,7 @@ pub(super) fn scene(
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
         domain: written.domain.map(|domain| domain.corners.0),
+        cell,
         insertions,
         outlets,
         meters,
@@ -110,7 +113,8 @@ fn relations(draft: &SceneDraft, document: &Document, faults: &mut Faults) {
     }
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
-    for finding in found {
+    let of_cell = cell::objections(draft).into_iter().map(|(table, key, mistake)| Finding::at(table, key, mistake));
+    for finding in found.chain(of_cell) {
         report(finding, document, faults);
     }
 }

@@ -10,6 +10,7 @@ use crate::laws::contact::{
 };
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
+use crate::scene::cell::CellKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
@@ -54,6 +55,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) meters: Named<MeterKeys>,
     /// `[domain]`
     pub(super) domain: Option<DomainTable>,
+    /// `[cell]`
+    pub(super) cell: Option<CellKeys>,
     /// `[output]`
     pub(super) output: Output,
     /// `[probe.<name>]`
@@ -141,6 +144,7 @@ impl RawTables {
         let outlets = all(document, "outlet", faults);
         let meters = all(document, "flow_meter", faults);
         let domain = document.has("domain").then(|| document.read("domain", faults));
+        let cell = document.has("cell").then(|| document.read("cell", faults)).flatten();
         let output = document.read("output", faults);
         let probes = all(document, "probe", faults);
         let derived = all(document, "derived", faults);
@@ -167,6 +171,7 @@ impl RawTables {
             outlets,
             meters,
             domain,
+            cell,
             output,
             probes,
             derived,

@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 19] = [
+pub(in crate::scene::file) const TABLES: [&str; 20] = [
     "about",
     "run",
     "gravity",
@@ -39,6 +39,7 @@ pub(in crate::scene::file) const TABLES: [&str; 19] = [
     "outlet",
     "flow_meter",
     "domain",
+    "cell",
     "output",
     "probe",
     "derived",

@@ -1,0 +1,360 @@
+//! The periodic cell: its images, its motion, and what it does to the particles.
+//!
+//! Velocities of particles are those relative to the streaming motion of the cell, which carries what is at rest along with the
+//! edges; passes see both together. In a time step a particle with velocity v goes from x to A (x + ½ Δt v) + ½ Δt v′, v′ = A⁻¹ v: straight
+//! on, at constant velocity, while the edges change at a constant rate. The work of the step is
+//!
+//! ```text
+//! W = M : (A − 1) − ½ [S₀ : (A − 1) + S₁ : (1 − A⁻¹)]     M = −½ Σ m (v′ + v) ⊗ v′     S = Σ f ⊗ r
+//! ```
+//!
+//! with forces f of contacts and bonds over the vectors r between their bodies, S₀ and S₁ before and after it. It is linear in
+//! the changes of the strains: what belongs to each is its mean stress times the volume.
+
+mod deformation;
+pub(crate) mod images;
+mod servo;
+mod stress;
+
+pub use stress::Fabric;
+
+use crate::base::number::Row;
+use crate::base::threads::{CHUNK, Context};
+use crate::engine::integration::Rows;
+use crate::engine::run_error::RunError;
+use crate::engine::state::cell::{CellState, Square, Strains};
+use crate::engine::state::ledger::Source;
+use crate::engine::state::{Ledger, State, StateFault, demand};
+use crate::laws::motion::{InputCourse, Progress};
+use crate::scene::{CellMotion, Scene};
+use deformation::{Change, product, times};
+use images::Images;
+
+/// Strain in one time step that nobody can mean.
+const LARGEST_STEP: f64 = 0.05;
+
+/// The cell of a scene.
+pub(crate) struct Cell {
+    /// Its images.
+    images: Images,
+    /// What each component does.
+    motion: [CellMotion; 6],
+    /// Radius of the largest particle \[m\].
+    largest: f64,
+    /// The deformation of the present time step.
+    change: Option<Change>,
+    /// The other velocities: with the streaming motion while time steps are at their ends, without it while forces are evaluated.
+    other: Vec<Row>,
+}
+
+impl Cell {
+    /// That of a scene, if it has one.
+    pub(crate) fn of(scene: &Scene) -> Option<Self> {
+        let images = Images::of(scene)?;
+        let motion = scene.cell.as_ref()?.motion;
+        let largest = scene.radii().fold(0.0, f64::max);
+        Some(Self { images, motion, largest, change: None, other: Vec::new() })
+    }
+
+    /// The state of a scene's cell at time 0.
+    pub(crate) fn begun(scene: &Scene) -> Option<CellState> {
+        let cell = scene.cell.as_ref()?;
+        let edges = cell.lattice.edges;
+        Some(CellState {
+            origin: cell.lattice.origin,
+            reference: edges,
+            edges,
+            target: cell.motion.map(|motion| motion.first_input()),
+            edges_away: vec![[0; 3]; scene.particles.len()],
+            ..CellState::default()
+        })
+    }
+
+    /// Whether a state from outside, whose other parts have been checked, has a cell as wide as the largest particle.
+    pub(crate) fn check(&self, state: &State) -> Result<(), StateFault> {
+        let wide = state.cell.as_ref().is_some_and(|cell| self.narrowest(cell) >= self.largest);
+        demand(wide, "cell", 1, "faces no nearer to each other than the largest radius")
+    }
+
+    /// The least distance of two faces that repeat \[m\].
+    fn narrowest(&self, cell: &CellState) -> f64 {
+        let heights = self.images.lattice(cell).heights();
+        (0..3).filter(|&edge| self.images.repeats(edge)).map(|edge| heights[edge]).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Begins a communication step of `interval` \[s\]: driven components know where they go.
+    pub(crate) fn begin(&self, state: &mut State, interval: f64) -> Result<(), RunError> {
+        let time = state.clock.time;
+        let Some(cell) = &mut state.cell else { return Ok(()) };
+        let change: Strains = std::array::from_fn(|component| cell.target_rate[component] * interval);
+        for (component, motion) in self.motion.iter().enumerate() {
+            let end = cell.target[component] + change[component];
+            if matches!(motion, CellMotion::Driven) && !end.is_finite() {
+                return Err(RunError::CellStrain { component, strain: end, time });
+            }
+        }
+        cell.volume_before = self.images.lattice(cell).volume();
+        cell.action = Strains::default();
+        for (component, motion) in self.motion.iter().enumerate() {
+            let is_driven = matches!(motion, CellMotion::Driven);
+            cell.start[component] = if is_driven { cell.strain[component] } else { cell.target[component] };
+            cell.target[component] += change[component];
+            cell.end[component] = cell.target[component];
+            cell.rate[component] = match motion {
+                CellMotion::Fixed => 0.0,
+                CellMotion::Driven => (cell.end[component] - cell.start[component]) / interval,
+                CellMotion::Servo(servo) => servo.max_rate,
+            };
+        }
+        cell.target_rate = Strains::default();
+        Ok(())
+    }
+
+    /// Ends a communication step after `elapsed` \[s\].
+    pub(crate) fn end(&self, state: &mut State, elapsed: f64) {
+        let Some(cell) = &mut state.cell else { return };
+        if elapsed > 0.0 {
+            let per = elapsed * cell.volume_before;
+            cell.mean_stress = cell.action.map(|action| action / per);
+        }
+    }
+
+    /// Lets the mean stress begin with the present one.
+    pub(crate) fn begin_mean(&self, state: &mut State, context: &Context) {
+        let Some(mut cell) = state.cell.take() else { return };
+        let change = Change::between(&cell.strain, &cell.strain);
+        (cell.kinetic, _) = carry(state, &cell.origin, &change, 0.0, context);
+        let volume = self.images.lattice(&cell).volume();
+        let load = |part: &Square| -(product(&cell.kinetic, part) + product(&cell.virial, part));
+        cell.mean_stress = std::array::from_fn(|component| load(&change.of_start[component]) / volume);
+        state.cell = Some(cell);
+    }
+
+    /// Puts driven components to the inputs of a state, particles with the cell. Returns whether that moved anything.
+    pub(crate) fn put(&self, state: &mut State, given: &CellState) -> bool {
+        let Some(mut cell) = state.cell.take() else { return false };
+        (cell.target, cell.target_rate) = (given.target, given.target_rate);
+        let is_driven = |component: usize| matches!(self.motion[component], CellMotion::Driven);
+        let after = std::array::from_fn(|component| match is_driven(component) {
+            true => cell.target[component],
+            false => cell.strain[component],
+        });
+        let change = Change::between(&cell.strain, &after);
+        if !change.is_none() {
+            for row in &mut state.particles.position {
+                let from = [0, 1, 2].map(|axis| row[axis] - cell.origin[axis]);
+                let to = times(&change.forward, from);
+                (0..3).for_each(|axis| row[axis] = cell.origin[axis] + to[axis]);
+            }
+            cell.strain = after;
+            cell.edges = deformation::edges(&cell.reference, &after);
+        }
+        state.cell = Some(cell);
+        !change.is_none()
+    }
+
+    /// The strains at the end of the present time step.
+    fn strains(&self, cell: &CellState, progress: &Progress, volume: f64) -> Strains {
+        let share = if progress.is_last() { 1.0 } else { progress.share(InputCourse::Ramp) };
+        std::array::from_fn(|component| {
+            let along = |from: f64, to: f64| if share < 1.0 { from + (to - from) * share } else { to };
+            let (from, to) = (cell.start[component], cell.end[component]);
+            match &self.motion[component] {
+                CellMotion::Fixed => cell.strain[component],
+                CellMotion::Driven => along(from, to),
+                CellMotion::Servo(servo) => {
+                    let stress = stress::of(&cell.virial, &cell.kinetic, component) / volume;
+                    let rate = servo::rate(servo, [stress, along(from, to)], cell.stiffness[component], progress.step);
+                    cell.strain[component] + progress.step * rate
+                }
+            }
+        })
+    }
+
+    /// Deforms the cell and carries particles and images along, after the drift. Returns the strain: no two points at a distance of 1 were
+    /// carried towards each other by more.
+    pub(crate) fn advance(
+        &mut self,
+        state: &mut State,
+        progress: &Progress,
+        context: &Context,
+    ) -> Result<f64, RunError> {
+        let Some(mut cell) = state.cell.take() else { return Ok(0.0) };
+        let result = self.deform(&mut cell, state, progress, context);
+        let lattice = self.images.lattice(&cell);
+        images::place(&lattice, &cell, &mut state.particles);
+        state.cell = Some(cell);
+        result
+    }
+
+    /// Deforms the cell in a time step.
+    fn deform(
+        &mut self,
+        cell: &mut CellState,
+        state: &mut State,
+        progress: &Progress,
+        context: &Context,
+    ) -> Result<f64, RunError> {
+        let step = progress.step;
+        let after = self.strains(cell, progress, self.images.lattice(cell).volume());
+        let change = Change::between(&cell.strain, &after);
+        let largest = change.strain.iter().map(|change| change.abs()).sum::<f64>();
+        if largest > LARGEST_STEP || !largest.is_finite() {
+            return Err(RunError::CellStep { strain: largest, step, time: state.clock.time });
+        }
+        let (kinetic, impulse) = carry(state, &cell.origin, &change, step, context);
+        (0..3).for_each(|axis| cell.impulse[axis] += impulse[axis]);
+        cell.strain = after;
+        cell.edges = deformation::edges(&cell.reference, &after);
+        cell.gradient = if change.is_none() { Square::default() } else { change.gradient(&after, step) };
+        cell.kinetic = kinetic;
+        let work = book(cell, &change, (-1.0, &kinetic, &change.of_start), step);
+        let virial = cell.virial;
+        book(cell, &change, (-0.5, &virial, &change.of_start), step);
+        if let Some(ledger) = &mut state.ledger {
+            book_streaming(ledger, work);
+        }
+        self.change = Some(change);
+        let height = self.narrowest(cell);
+        if height < self.largest {
+            return Err(RunError::CellNarrow { height, radius: self.largest, time: state.clock.time });
+        }
+        Ok(change.farthest())
+    }
+
+    /// Gives passes the velocities that include the streaming motion.
+    pub(crate) fn begin_evaluation(&mut self, state: &mut State) {
+        let State { cell: Some(cell), particles, .. } = state else { return };
+        cell.virial = Square::default();
+        if !cell.streams() {
+            return;
+        }
+        self.other.clear();
+        self.other.extend(particles.velocity.iter().zip(&particles.position).map(|(velocity, position)| {
+            let [u, v, w] = cell.streaming_at(*position);
+            [velocity[0] + u, velocity[1] + v, velocity[2] + w, velocity[3]]
+        }));
+        std::mem::swap(&mut self.other, &mut particles.velocity);
+    }
+
+    /// When passes of one kind are done: images hand on their loads, and velocities are again those without the streaming motion. Where
+    /// no more passes between particles follow, the virial is found.
+    pub(crate) fn end_kind(&mut self, state: &mut State, is_last: bool, context: &Context) {
+        let State { cell: Some(cell), particles, .. } = state else { return };
+        let lattice = self.images.lattice(cell);
+        let sum = images::gather(&lattice, cell, particles);
+        add(&mut cell.virial, &sum);
+        if cell.streams() {
+            std::mem::swap(&mut self.other, &mut particles.velocity);
+        }
+        if is_last {
+            let (position, force) = (&particles.position, &particles.force);
+            let of_piece = |piece: usize| {
+                let mut sum = Square::default();
+                for slot in piece * CHUNK..((piece + 1) * CHUNK).min(position.len()) {
+                    let place = [0, 1, 2].map(|axis| position[slot][axis] - cell.origin[axis]);
+                    add_dyad(&mut sum, [force[slot][0], force[slot][1], force[slot][2]], place);
+                }
+                sum
+            };
+            let sum = context.fold(position.len().div_ceil(CHUNK), of_piece, Square::default(), |mut sum, part| {
+                add(&mut sum, &part);
+                sum
+            });
+            add(&mut cell.virial, &sum);
+        }
+    }
+
+    /// Gives passes of the next kind the velocities that include the streaming motion.
+    pub(crate) fn begin_kind(&mut self, state: &mut State) {
+        if state.cell.as_ref().is_some_and(CellState::streams) {
+            std::mem::swap(&mut self.other, &mut state.particles.velocity);
+        }
+    }
+
+    /// Books what the present forces did in the second half of the time step.
+    pub(crate) fn finish(&mut self, state: &mut State, step: f64) {
+        let (Some(cell), Some(change)) = (&mut state.cell, self.change.take()) else { return };
+        let virial = cell.virial;
+        book(cell, &change, (-0.5, &virial, &change.of_end), step);
+    }
+
+    /// The largest speed at which the deformation brings neighbours towards each other, as it is or is about to be \[m/s\].
+    pub(crate) fn speed(&self, state: &State) -> f64 {
+        let Some(cell) = &state.cell else { return 0.0 };
+        let near = 2.0 * self.largest + state.neighbours.skin;
+        let norm = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+        near * norm(cell.gradient.as_flattened()).max(norm(&cell.rate))
+    }
+}
+
+/// Books the work of a matrix of sums, by a factor and what belongs to each strain. Returns it \[J\].
+fn book(
+    cell: &mut CellState,
+    change: &Change,
+    (factor, matrix, parts): (f64, &Square, &[Square; 6]),
+    step: f64,
+) -> f64 {
+    let mut work = 0.0;
+    for (component, part) in parts.iter().enumerate() {
+        let load = factor * product(matrix, part);
+        cell.action[component] += step * load;
+        work += load * change.strain[component];
+    }
+    cell.work += work;
+    work
+}
+
+/// Books what the streaming motion of the cell did to velocities \[J\].
+fn book_streaming(ledger: &mut Ledger, work: f64) {
+    ledger.work[Source::Cell as usize] += work;
+    ledger.turnover += work.abs();
+}
+
+/// Carries the particles along, after the drift. Returns −M \[J\] and what that added to the momentum
+/// \[N s\].
+fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, context: &Context) -> (Square, [f64; 3]) {
+    let (rows, half) = (Rows::of(&mut state.particles), 0.5 * step);
+    let is_none = change.is_none();
+    let of_piece = |piece: usize| {
+        let (mut sum, mut impulse) = (Square::default(), [0.0; 3]);
+        rows.each_free(piece, |body| {
+            let [u, v, w, mass] = *body.velocity;
+            let before = [u, v, w];
+            let after = if is_none { before } else { times(&change.backward, before) };
+            let mean = [0, 1, 2].map(|axis| 0.5 * mass * (after[axis] + before[axis]));
+            add_dyad(&mut sum, mean, after);
+            if is_none {
+                return;
+            }
+            let from = [0, 1, 2].map(|axis| body.position[axis] - half * before[axis] - origin[axis]);
+            let to = times(&change.forward, from);
+            for axis in 0..3 {
+                body.position[axis] = origin[axis] + to[axis] + half * after[axis];
+                body.velocity[axis] = after[axis];
+                impulse[axis] += mass * (after[axis] - before[axis]);
+            }
+        });
+        (sum, impulse)
+    };
+    context.fold(rows.pieces(), of_piece, (Square::default(), [0.0; 3]), |(mut sum, mut impulse), (part, added)| {
+        add(&mut sum, &part);
+        impulse.iter_mut().zip(added).for_each(|(sum, part)| *sum += part);
+        (sum, impulse)
+    })
+}
+
+/// Adds a matrix to a sum.
+fn add(sum: &mut Square, other: &Square) {
+    sum.as_flattened_mut().iter_mut().zip(other.as_flattened()).for_each(|(sum, part)| *sum += part);
+}
+
+/// Adds a dyad to a sum.
+#[inline(always)]
+fn add_dyad(sum: &mut Square, rows: [f64; 3], columns: [f64; 3]) {
+    for (sum, row) in sum.iter_mut().zip(rows) {
+        for (sum, column) in sum.iter_mut().zip(columns) {
+            *sum += row * column;
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Stress and structure of a cell, looked at between time steps.
+
+use super::Cell;
+use super::deformation::times;
+use crate::base::geometry::lattice::STRAIN_PLACES;
+use crate::base::number::Vector;
+use crate::engine::contacts::{Link, Pass, SearchLimits};
+use crate::engine::state::cell::{Square, Strains};
+use crate::engine::state::{IMAGE, State};
+
+/// A component of the stress times the volume: of forces and of velocities, tension positive \[J\].
+pub(super) fn of(virial: &Square, kinetic: &Square, component: usize) -> f64 {
+    let [row, column] = STRAIN_PLACES[component];
+    -0.5 * (virial[row][column] + virial[column][row] + kinetic[row][column] + kinetic[column][row])
+}
+
+/// Contacts between particles, as far as they tell the structure of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fabric {
+    /// Contacts of a particle in the mean.
+    pub coordination: f64,
+    /// Mean of n ⊗ n over the contacts: xx, yy, zz, xy, xz, yz; zeros without any.
+    pub tensor: Strains,
+}
+
+impl Fabric {
+    /// Of these normals of contacts, each between two of so many particles.
+    pub(crate) fn of(normals: impl Iterator<Item = [f64; 3]>, particles: usize) -> Self {
+        let (mut sum, mut count) = (Strains::default(), 0_u64);
+        for normal in normals {
+            count += 1;
+            for (sum, [row, column]) in sum.iter_mut().zip(STRAIN_PLACES) {
+                *sum += normal[row] * normal[column];
+            }
+        }
+        let per = if count > 0 { 1.0 / count as f64 } else { 0.0 };
+        let coordination = if particles > 0 { 2.0 * count as f64 / particles as f64 } else { 0.0 };
+        Self { coordination, tensor: sum.map(|sum| sum * per) }
+    }
+}
+
+impl Cell {
+    /// Cauchy stress of contacts, bonds and velocities at the present time, tension positive \[Pa\].
+    pub(crate) fn stress(&self, state: &State) -> Strains {
+        let Some(cell) = &state.cell else { return Strains::default() };
+        let mut kinetic = Square::default();
+        let particles = &state.particles;
+        for slot in particles.slots() {
+            let [u, v, w, mass] = particles.velocity[slot];
+            super::add_dyad(&mut kinetic, [mass * u, mass * v, mass * w], [u, v, w]);
+        }
+        let volume = self.volume(state);
+        std::array::from_fn(|component| of(&cell.virial, &kinetic, component) / volume)
+    }
+
+    /// Volume at the present time \[m³\].
+    pub(crate) fn volume(&self, state: &State) -> f64 {
+        state.cell.as_ref().map_or(0.0, |cell| self.images.lattice(cell).volume())
+    }
+
+    /// Part of the volume that no particle fills; what they overlap counts twice.
+    pub(crate) fn porosity(&self, state: &State) -> f64 {
+        let rows = state.particles.position.iter().zip(&state.particles.owner).filter(|(_, owner)| **owner != IMAGE);
+        let solid: f64 = rows.map(|(row, _)| 4.0 / 3.0 * std::f64::consts::PI * row[3] * row[3] * row[3]).sum();
+        1.0 - solid / self.volume(state)
+    }
+
+    /// Finds how stiff the network of these passes is to each component of the strain, where every particle goes with the cell.
+    pub(crate) fn find_stiffness(&self, state: &mut State, passes: &[Box<dyn Pass>]) {
+        let mut sums = Strains::default();
+        for pass in passes {
+            pass.stiffness(
+                state,
+                &SearchLimits::default(),
+                &mut |Link { first, second, normal, stiffness, .. }| {
+                    let Some(second) = second else { return };
+                    let [a, b] = [first, second].map(|slot| Vector::from(state.particles.position[slot as usize]));
+                    let (branch, normal) = ((a - b).to_array(), normal.to_array());
+                    for (sum, [row, column]) in sums.iter_mut().zip(STRAIN_PLACES) {
+                        let mut unit = Square::default();
+                        unit[row][column] = 1.0;
+                        let went = Vector::from(times(&unit, branch));
+                        let along = went.dot(normal.into());
+                        *sum += stiffness[0] * along * along + stiffness[1] * (went.dot(went) - along * along);
+                    }
+                },
+            );
+        }
+        let volume = self.volume(state);
+        if let Some(cell) = &mut state.cell {
+            cell.stiffness = sums.map(|sum| sum / volume);
+        }
+    }
+
+    /// Whether a servo moves any component.
+    pub(crate) fn serves(&self) -> bool {
+        self.motion.iter().any(|motion| motion.servo().is_some())
+    }
+}

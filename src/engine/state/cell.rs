@@ -1,0 +1,115 @@
+//! The periodic cell: how far it is deformed, and which particles are images of others.
+
+use super::in_place::clone_in_place;
+use super::{Row, plain};
+use serde::{Deserialize, Serialize};
+
+/// A number for each component of the deformation, in the order of [`STRAINS`](crate::base::geometry::lattice::STRAINS).
+pub type Strains = [f64; 6];
+
+/// Three rows of three numbers.
+pub type Square = [[f64; 3]; 3];
+
+/// A periodic cell, its images and what deforms it.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct CellState {
+    /// The corner that stays where it is \[m\].
+    pub origin: [f64; 3],
+    /// Edges without strain; where the cell was brought back by whole edges, what it was brought back to \[m\].
+    pub reference: Square,
+    /// Edges at the present time \[m\].
+    pub edges: Square,
+    /// Strains at the present time.
+    pub strain: Strains,
+    /// Gradient of the streaming velocity in the present time step: rows are components of the velocity \[1/s\].
+    pub gradient: Square,
+    /// The largest rates in the present communication step \[1/s\].
+    pub rate: Strains,
+    /// Where it began: strains of driven components, target stresses of servos \[Pa\].
+    pub start: Strains,
+    /// Where it is to end.
+    pub end: Strains,
+    /// The last values given: strains, stresses \[Pa\].
+    pub target: Strains,
+    /// Their rates; 0 where none was given.
+    pub target_rate: Strains,
+    /// How stiff the cell is to each component, as it was found last; 0 where nothing resists \[Pa\].
+    pub stiffness: Strains,
+    /// By how many edges each of the scene's particles has been brought back into the cell.
+    #[serde(with = "plain")]
+    pub edges_away: Vec<[i64; 3]>,
+    /// Images: particles (slots) that another moves. They stand behind the cell, as near as pairs reach.
+    #[serde(with = "plain")]
+    pub images: Vec<u32>,
+    /// The particle (slot) of each.
+    #[serde(with = "plain")]
+    pub originals: Vec<u32>,
+    /// By how many edges each is displaced from its particle.
+    #[serde(with = "plain")]
+    pub displaced: Vec<[i64; 3]>,
+    /// Sum over contacts and bonds of particles: force times vector from the other body, rows are components of the force \[J\].
+    pub virial: Square,
+    /// Sum over particles: mass times velocity times velocity at the middle of the last time step \[J\].
+    pub kinetic: Square,
+    /// Sum over time steps of this communication step: work for each unit of strain, times the time step \[J s\].
+    pub action: Strains,
+    /// Volume when the present communication step began \[m³\].
+    pub volume_before: f64,
+    /// Mean stress over the last communication step, for which work is stress times strain times volume \[Pa\].
+    pub mean_stress: Strains,
+    /// Work done on the particles since time 0 \[J\].
+    pub work: f64,
+    /// Impulse of the streaming motion on the particles since time 0 \[N s\].
+    pub impulse: [f64; 3],
+}
+
+clone_in_place!(CellState {
+    origin,
+    reference,
+    edges,
+    strain,
+    gradient,
+    rate,
+    start,
+    end,
+    target,
+    target_rate,
+    stiffness,
+    edges_away,
+    images,
+    originals,
+    displaced,
+    virial,
+    kinetic,
+    action,
+    volume_before,
+    mean_stress,
+    work,
+    impulse
+});
+
+impl CellState {
+    /// Counts work from here.
+    pub(super) fn begin_counting(&mut self) {
+        (self.work, self.impulse) = (0.0, [0.0; 3]);
+    }
+
+    /// Takes over where another has come to, as the state without strain.
+    pub(crate) fn stay(&mut self, ended: Self) {
+        (self.reference, self.edges, self.stiffness) = (ended.edges, ended.edges, ended.stiffness);
+        (self.edges_away, self.images) = (ended.edges_away, ended.images);
+        (self.originals, self.displaced) = (ended.originals, ended.displaced);
+    }
+
+    /// Streaming velocity at a place \[m/s\].
+    #[inline]
+    pub(crate) fn streaming_at(&self, position: Row) -> [f64; 3] {
+        let [x, y, z] = [0, 1, 2].map(|axis| position[axis] - self.origin[axis]);
+        self.gradient.map(|[along_x, along_y, along_z]| along_x * x + along_y * y + along_z * z)
+    }
+
+    /// Whether the cell is being deformed.
+    pub(crate) fn streams(&self) -> bool {
+        self.gradient != Square::default()
+    }
+}

@@ -1,0 +1,571 @@
+//! A periodic cell: its images, its motion, its stress and its work, against closed forms.
+
+use crate::support::{read, start};
+use cograin::lanes::Width;
+use cograin::simulation::Simulation;
+use std::fmt::Write as _;
+
+/// Elastic spheres with these further lines: sets, the cell, what else there is.
+fn scene(law: &str, pair: &str, rest: &str) -> String {
+    format!(
+        "[run]\nstep = 1e-5\nend = 1.0\n[material.glass]\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\ndensity = 2500.0\n\
+         [pair.glass.glass]\n{pair}\n{law}\n[output]\nenergy = true\nlosses = true\n{rest}"
+    )
+}
+
+/// Without friction and damping.
+const SMOOTH: [&str; 2] = ["[contact.touch.normal.hertz]", "restitution = 1.0"];
+
+/// With both.
+const ROUGH: [&str; 2] =
+    ["[contact.touch.normal.hertz]\n[contact.touch.tangential.history]", "restitution = 0.6\nfriction = 0.4"];
+
+/// A set of spheres with velocities.
+fn spheres(list: &[([f64; 3], f64, [f64; 3])]) -> String {
+    let mut text = "[particles.all]\nmaterial = \"glass\"\nlist = [\n".to_owned();
+    for (position, radius, velocity) in list {
+        let _ = writeln!(text, "{{ position = {position:?}, radius = {radius:?}, velocity = {velocity:?} }},");
+    }
+    text + "]\n"
+}
+
+/// A cell.
+fn cell(edges: [[f64; 3]; 3], more: &str) -> String {
+    format!("[cell]\nedges = {edges:?}\n{more}\n")
+}
+
+/// All six components follow inputs.
+const DRIVEN: &str = "motion = { driven = [\"xx\", \"yy\", \"zz\", \"xy\", \"xz\", \"yz\"] }";
+
+/// Numbers from 0 to 1, the same each time.
+fn uniform(state: &mut u64) -> f64 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+const STRAINS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+
+/// Sites of a lattice in parts of its cubic cell.
+fn sites(kind: &str) -> Vec<[f64; 3]> {
+    let all = [[0.0, 0.0, 0.0], [0.5, 0.5, 0.5], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5], [0.5, 0.5, 0.0]];
+    match kind {
+        "sc" => vec![all[0]],
+        "bcc" => vec![all[0], all[1]],
+        _ => vec![all[0], all[2], all[3], all[4]],
+    }
+}
+
+/// Stress of a lattice whose cubic cell has these edges, by the force of Hertz between neighbours.
+fn stress_of_lattice(kind: &str, edges: [[f64; 3]; 3], radius: f64) -> [f64; 6] {
+    let modulus = 1e7 / (2.0 * (1.0 - 0.25 * 0.25));
+    let place = |part: [f64; 3]| [0, 1, 2].map(|axis| (0..3).map(|edge| part[edge] * edges[edge][axis]).sum::<f64>());
+    let mut sum = [0.0; 6];
+    let sites = sites(kind);
+    for a in &sites {
+        for b in &sites {
+            for shift in 0..125 {
+                let shift = [shift % 5 - 2, shift / 5 % 5 - 2, shift / 25 - 2];
+                let apart = place([0, 1, 2].map(|edge| b[edge] + f64::from(shift[edge]) - a[edge]));
+                let distance = apart.iter().map(|part| part * part).sum::<f64>().sqrt();
+                let overlap = 2.0 * radius - distance;
+                if overlap > 0.0 && distance > 0.0 {
+                    let force = 4.0 / 3.0 * modulus * (0.5 * radius * overlap).sqrt() * overlap;
+                    for (sum, [row, column]) in sum.iter_mut().zip(STRAINS) {
+                        *sum -= 0.5 * force * apart[row] * apart[column] / distance;
+                    }
+                }
+            }
+        }
+    }
+    let volume = edges[0][0] * edges[1][1] * edges[2][2];
+    sum.map(|sum| sum / volume)
+}
+
+/// A cell of `counts` lattice cells of this size.
+fn lattice(kind: &str, counts: [usize; 3], size: f64, radius: f64, motion: &str) -> String {
+    let mut list = Vec::new();
+    for place in 0..counts.iter().product() {
+        let at = [place % counts[0], place / counts[0] % counts[1], place / counts[0] / counts[1]];
+        for site in sites(kind) {
+            list.push(([0, 1, 2].map(|axis| size * (at[axis] as f64 + site[axis] + 0.1)), radius, [0.0; 3]));
+        }
+    }
+    let [a, b, c] = counts.map(|count| size * count as f64);
+    let [law, pair] = SMOOTH;
+    scene(law, pair, &(spheres(&list) + &cell([[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]], motion)))
+}
+
+fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    let scale = expected.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((found - expected).abs() <= tolerance * scale, "{what}: found {found:?}, expected {expected:?}");
+    }
+}
+
+#[test]
+fn lattices_carry_the_stress_of_their_neighbours_however_they_are_strained() {
+    let radius = 1e-3;
+    for (kind, counts, size) in [
+        ("sc", [1, 1, 1], 1.96e-3),
+        ("sc", [3, 4, 2], 1.96e-3),
+        ("bcc", [1, 1, 1], 2.26e-3),
+        ("bcc", [2, 3, 2], 2.26e-3),
+        ("fcc", [1, 1, 1], 2.77e-3),
+        ("fcc", [3, 2, 2], 2.77e-3),
+    ] {
+        let mut simulation = start(&lattice(kind, counts, size, radius, DRIVEN));
+        let cube = [[size, 0.0, 0.0], [0.0, size, 0.0], [0.0, 0.0, size]];
+        let what = format!("{kind} {counts:?}");
+        assert_near(&simulation.cell_stress(), &stress_of_lattice(kind, cube, radius), 1e-12, &what);
+        let strain = [-0.01_f64, 0.004, -0.006, 0.012, -0.02, 0.008];
+        (0..6).for_each(|component| simulation.set_strain(component, strain[component]));
+        simulation.advance(2e-3).unwrap();
+        let [x, y, z] = [0, 1, 2].map(|axis| size * strain[axis].exp());
+        let [xy, xz, yz] = [strain[3] * y, strain[4] * z, strain[5] * z];
+        let edges = [[x, 0.0, 0.0], [xy, y, 0.0], [xz, yz, z]];
+        assert_near(&simulation.cell_stress(), &stress_of_lattice(kind, edges, radius), 1e-9, &what);
+    }
+}
+
+#[test]
+fn a_lattice_that_is_sheared_by_a_whole_edge_is_what_it_was() {
+    let size = 1.96e-3;
+    let text = |counts| lattice("sc", counts, size, 1e-3, "motion = { shear = \"xz\" }");
+    let mut simulation = start(&text([1, 1, 1]));
+    let before = simulation.cell_stress();
+    for share in 1..=32 {
+        simulation.set_strain(4, f64::from(share) / 24.0);
+        simulation.advance(2e-3).unwrap();
+        let strain = f64::from(share) / 24.0;
+        let edges = [[size, 0.0, 0.0], [0.0, size, 0.0], [strain * size, 0.0, size]];
+        assert_near(&simulation.cell_stress(), &stress_of_lattice("sc", edges, 1e-3), 1e-9, &format!("{strain}"));
+    }
+    // Rows that lie in each other's gaps buckle in the end: quickly, before rounding grows.
+    let mut simulation = start(&text([4, 3, 3]));
+    for edges in 1..=4 {
+        simulation.set_strain(4, f64::from(edges));
+        simulation.advance(1e-3).unwrap();
+        assert_near(&simulation.cell_stress(), &before, 1e-6, &format!("{edges} edges"));
+    }
+    assert!(simulation.state().cell.as_ref().unwrap().edges[2][0].abs() < size);
+}
+
+/// Spheres that do not touch, with random velocities of no momentum in sum.
+fn gas(count: usize, size: f64, speed: f64) -> Vec<([f64; 3], f64, [f64; 3])> {
+    let (mut random, per) = (7, (count as f64).cbrt().ceil() as usize);
+    let mut list: Vec<_> = (0..count)
+        .map(|place| {
+            let at = [place % per, place / per % per, place / per / per];
+            let position = at.map(|at| size * (at as f64 + 0.5 + 0.2 * (uniform(&mut random) - 0.5)) / per as f64);
+            (position, 0.2 * size / per as f64, [(); 3].map(|()| speed * (uniform(&mut random) - 0.5)))
+        })
+        .collect();
+    for axis in 0..3 {
+        let mean = list.iter().map(|(.., velocity)| velocity[axis]).sum::<f64>() / count as f64;
+        list.iter_mut().for_each(|(.., velocity)| velocity[axis] -= mean);
+    }
+    list
+}
+
+/// A cube.
+fn cube(size: f64) -> [[f64; 3]; 3] {
+    [[size, 0.0, 0.0], [0.0, size, 0.0], [0.0, 0.0, size]]
+}
+
+#[test]
+fn an_ideal_gas_presses_by_its_kinetic_energy_and_heats_up_as_it_is_compressed() {
+    let text = scene("", "", &(spheres(&gas(60, 1.0, 1.0)) + &cell(cube(1.0), DRIVEN)));
+    let text = text.replace("[pair.glass.glass]\n\n", "");
+    let mut simulation = start(&text);
+    let energy = simulation.kinetic_energy();
+    let pressure = |simulation: &Simulation| simulation.cell_stress()[..3].iter().sum::<f64>() / -3.0;
+    assert_near(&[pressure(&simulation)], &[2.0 / 3.0 * energy], 1e-14, "pressure");
+    for component in 0..3 {
+        simulation.set_strain(component, -0.2);
+    }
+    simulation.advance(0.05).unwrap();
+    let (warm, volume) = (simulation.kinetic_energy(), (-0.6_f64).exp());
+    assert_near(&[simulation.cell_volume()], &[volume], 1e-14, "volume");
+    // 5000 time steps multiply each velocity by the same rounded factor.
+    let rounding = 5000.0 * 4.0 * f64::EPSILON;
+    assert_near(&[warm], &[energy * volume.powf(-2.0 / 3.0)], rounding, "energy");
+    assert_near(&[pressure(&simulation)], &[2.0 / 3.0 * warm / volume], 1e-12, "pressure");
+    let work = simulation.state().cell.as_ref().unwrap().work;
+    assert_near(&[energy + work], &[warm], rounding, "work");
+    assert!(simulation.energy_residual().unwrap().abs() < 1e-12 * warm);
+}
+
+/// A dense gas of rough spheres, some across the faces, in a cell that leans over.
+fn dense(law: [&str; 2], more: &str) -> String {
+    let mut list = gas(120, 0.1, 1.0);
+    list.iter_mut().for_each(|(_, radius, _)| *radius *= 2.2);
+    let edges = [[0.1, 0.0, 0.0], [0.02, 0.1, 0.0], [-0.03, 0.01, 0.1]];
+    let list: Vec<_> = list
+        .into_iter()
+        .map(|(part, radius, velocity)| {
+            let place = [0, 1, 2].map(|axis| (0..3).map(|edge| part[edge] / 0.1 * edges[edge][axis]).sum::<f64>());
+            (place, radius, velocity)
+        })
+        .collect();
+    scene(law[0], law[1], &(spheres(&list) + &cell(edges, more))).replace("[run]", "[run]\nmax_overlap = 0.3")
+}
+
+#[test]
+fn work_is_mean_stress_times_strain_times_volume_and_the_books_close() {
+    for law in [SMOOTH, ROUGH] {
+        let mut simulation = start(&dense(law, DRIVEN));
+        let mut strain = [0.0; 6];
+        for step in 1..=6 {
+            let before = simulation.state().cell.as_ref().unwrap().work;
+            let volume = simulation.cell_volume();
+            let ways = [-0.004, 0.002, -0.003, 0.1, -0.002, 0.01].map(|way| way * f64::from(step));
+            (0..6).for_each(|component| simulation.set_strain(component, strain[component] + ways[component]));
+            simulation.advance(7e-4).unwrap();
+            let cell = simulation.state().cell.as_ref().unwrap();
+            let expected: f64 = (0..6).map(|k| cell.mean_stress[k] * (cell.strain[k] - strain[k]) * volume).sum();
+            let scale: f64 = (0..6).map(|k| (cell.mean_stress[k] * (cell.strain[k] - strain[k]) * volume).abs()).sum();
+            assert!((cell.work - before - expected).abs() < 1e-12 * scale, "{} {expected}", cell.work - before);
+            strain = cell.strain;
+        }
+        let ledger = simulation.state().ledger.as_ref().unwrap();
+        let residual = simulation.energy_residual().unwrap();
+        assert!(residual.abs() < 1e-12 * ledger.turnover, "{residual} of {}", ledger.turnover);
+        let momentum = momentum(&simulation);
+        assert!(momentum.iter().all(|part| part.abs() < 1e-12), "{momentum:?}");
+    }
+}
+
+/// Momentum of the particles.
+fn momentum(simulation: &Simulation) -> [f64; 3] {
+    let particles = &simulation.state().particles;
+    let rows = particles.slots().map(|slot| particles.velocity[slot]);
+    rows.fold([0.0; 3], |sum, row| [0, 1, 2].map(|axis| sum[axis] + row[3] * row[axis]))
+}
+
+#[test]
+fn the_physical_residual_is_of_second_order() {
+    let residual = |step: &str| {
+        let mut simulation = start(&dense(SMOOTH, DRIVEN).replace("step = 1e-5", &format!("step = {step}")));
+        (0..6).for_each(|k| simulation.set_strain(k, [-0.1, 0.02, -0.05, 0.1, -0.05, 0.02][k]));
+        simulation.advance(4e-3).unwrap();
+        let work = simulation.state().cell.as_ref().unwrap().work;
+        (simulation.physical_residual().unwrap(), work)
+    };
+    let ((coarse, work), (fine, _)) = (residual("2e-5"), residual("5e-6"));
+    assert!(coarse.abs() < 1e-3 * work.abs(), "{coarse} of {work}");
+    assert!(fine.abs() < 0.15 * coarse.abs(), "{coarse} {fine}");
+}
+
+#[test]
+fn stress_follows_permuted_axes() {
+    let list = gas(60, 0.1, 2.0);
+    let [law, pair] = ROUGH;
+    let run = |order: [usize; 3]| {
+        let list: Vec<_> = list
+            .iter()
+            .map(|(place, radius, velocity)| {
+                (order.map(|axis| place[axis]), 2.2 * radius, order.map(|axis| velocity[axis]))
+            })
+            .collect();
+        let sizes = order.map(|axis| [0.1, 0.1, 0.1][axis]);
+        let edges = [[sizes[0], 0.0, 0.0], [0.0, sizes[1], 0.0], [0.0, 0.0, sizes[2]]];
+        let text =
+            scene(law, pair, &(spheres(&list) + &cell(edges, DRIVEN))).replace("[run]", "[run]\nmax_overlap = 0.3");
+        let mut simulation = start(&text);
+        (0..3).for_each(|axis| simulation.set_strain(axis, [-0.1, -0.02, 0.05][order[axis]]));
+        simulation.advance(1e-3).unwrap();
+        let stress = simulation.cell_stress();
+        let mut square = [[0.0; 3]; 3];
+        for (part, [row, column]) in stress.into_iter().zip(STRAINS) {
+            (square[order[row]][order[column]], square[order[column]][order[row]]) = (part, part);
+        }
+        square
+    };
+    let straight = run([0, 1, 2]);
+    for order in [[1, 2, 0], [2, 0, 1], [1, 0, 2]] {
+        assert_near(run(order).as_flattened(), straight.as_flattened(), 1e-10, &format!("{order:?}"));
+    }
+}
+
+#[test]
+fn a_pair_that_drifts_through_the_faces_does_what_it_does_in_the_open() {
+    let [law, pair] = ROUGH;
+    let drift = [31.0, -17.0, 23.0];
+    let list = [
+        ([0.05, 0.02, 0.03], 0.01, drift),
+        ([0.0695, 0.023, 0.031], 0.008, [0, 1, 2].map(|axis| drift[axis] + [-1.0, 0.4, -0.3][axis])),
+    ];
+    let bond = "[bond.glue]\nbetween = [\"all\", \"all\"]\ncreate_distance = 0.03\nnormal_stiffness = 1e9\ntangential_stiffness = 5e8\n";
+    let run = |periodic: bool, bond: &str| {
+        let edges = [[0.09, 0.0, 0.0], [0.03, 0.08, 0.0], [-0.02, 0.03, 0.085]];
+        let cell = if periodic { cell(edges, "") } else { String::new() };
+        let text = scene(law, pair, &(spheres(&list) + bond + &cell)).replace("[run]", "[run]\nmax_overlap = 0.1");
+        let mut simulation = start(&text);
+        for _ in 0..40 {
+            simulation.advance(1e-3).unwrap();
+        }
+        let particles = &simulation.state().particles;
+        let slots: Vec<usize> = particles.slots().collect();
+        let spins: Vec<f64> = slots.iter().flat_map(|&slot| particles.angular_velocity[slot][..3].to_vec()).collect();
+        let velocities: Vec<f64> = slots.iter().flat_map(|&slot| particles.velocity[slot][..3].to_vec()).collect();
+        let away = simulation
+            .state()
+            .cell
+            .as_ref()
+            .map_or(0, |cell| cell.edges_away.iter().flatten().map(|it| it.abs()).sum());
+        (spins, velocities, away, simulation.elastic_energy())
+    };
+    for bond in ["", bond] {
+        let (open, closed) = (run(false, bond), run(true, bond));
+        assert!(closed.2 > 30, "only {} faces crossed", closed.2);
+        assert_near(&closed.0, &open.0, 1e-7, "spins");
+        assert_near(&closed.1, &open.1, 1e-9, "velocities");
+        assert!((closed.3 - open.3).abs() <= 1e-6 * open.3.max(1e-12), "{} {}", closed.3, open.3);
+    }
+}
+
+#[test]
+fn gravity_along_an_edge_that_repeats_is_booked_and_a_probe_follows_the_fall() {
+    let [law, pair] = SMOOTH;
+    let probe = "[probe.grain]\nparticle = 1\n";
+    let text = scene(law, pair, &(spheres(&[([0.5, 0.5, 0.5], 0.01, [0.0; 3])]) + probe + &cell(cube(0.6), "")));
+    let mut simulation = start(&format!("gravity = [0.0, 0.0, -10.0]\n{text}"));
+    simulation.advance(1.0).unwrap();
+    assert!(simulation.state().cell.as_ref().unwrap().edges_away[0][2] < -5);
+    let place = cograin::averages::sights(&simulation)[0].position[2];
+    assert!((place - 0.5 + 5.0).abs() < 1e-9, "{place}");
+    let kinetic = simulation.kinetic_energy();
+    assert!(simulation.physical_residual().unwrap().abs() < 1e-9 * kinetic);
+}
+
+#[test]
+fn one_particle_flies_on_for_many_periods() {
+    let [law, pair] = SMOOTH;
+    let velocity = [120.0, -75.0, 33.0];
+    let text = scene(law, pair, &(spheres(&[([0.5, 0.5, 0.5], 0.01, velocity)]) + &cell(cube(1.0), "")));
+    let mut simulation = start(&text);
+    simulation.advance(1.0).unwrap();
+    let state = simulation.state();
+    let (slot, cell) = (state.particles.slot[0] as usize, state.cell.as_ref().unwrap());
+    for axis in 0..3 {
+        let place = state.particles.position[slot][axis] + cell.edges_away[0][axis] as f64;
+        assert!((place - 0.5 - velocity[axis]).abs() < 1e-9, "{place}");
+        assert!((-0.1..1.1).contains(&state.particles.position[slot][axis]));
+    }
+    assert_eq!(state.particles.velocity[slot][..3], velocity);
+}
+
+#[test]
+fn bits_are_the_same_for_threads_lanes_and_after_save_and_restore() {
+    let text = |threads: usize| dense(ROUGH, DRIVEN).replace("[run]", &format!("[run]\nthreads = {threads}"));
+    let drive = |simulation: &mut Simulation, step: u32| {
+        (0..6).for_each(|k| simulation.set_strain(k, f64::from(step) * [-0.01, 0.0, -0.02, 0.6, 0.01, -0.3][k]));
+        simulation.advance(5e-4).unwrap();
+    };
+    let run = |threads: usize, width: Width, kept: bool| {
+        let mut simulation = start(&text(threads));
+        simulation.set_width(width);
+        for step in 1..=6 {
+            drive(&mut simulation, step);
+            if kept && step == 3 {
+                let state = simulation.state().clone();
+                simulation = start(&text(threads));
+                simulation.set_width(width);
+                simulation.restore(&state).unwrap();
+            }
+        }
+        let cell = simulation.state().cell.as_ref().unwrap();
+        assert!(simulation.state().clock.rebuilds > 4 && cell.images.len() > 50);
+        simulation.state().clone()
+    };
+    let first = run(1, Width::widest(), false);
+    for (threads, width, kept) in [(3, Width::widest(), false), (1, Width::Least, false), (2, Width::widest(), true)] {
+        assert!(run(threads, width, kept) == first, "{threads} threads, {width:?}, restored {kept}");
+    }
+}
+
+#[test]
+fn the_automatic_step_knows_images() {
+    let automatic = |text: String| text.replace("step = 1e-5", "step = \"auto\"");
+    for law in [SMOOTH, ROUGH] {
+        let mut simulation = start(&automatic(dense(law, "motion = { shear = \"xz\" }")));
+        simulation.set_strain(4, 0.3);
+        simulation.advance(5e-3).unwrap();
+        let clock = &simulation.state().clock;
+        assert!(
+            clock.step > 0.0 && clock.step < clock.stable && clock.stable < 1e-3,
+            "{} {}",
+            clock.step,
+            clock.stable
+        );
+    }
+    // One particle between its own images is as stiff as the same lattice of many.
+    let stable = |counts| {
+        let simulation = start(&automatic(lattice("sc", counts, 1.96e-3, 1e-3, "")));
+        simulation.state().clock.stable
+    };
+    let (one, many) = (stable([1, 1, 1]), stable([4, 4, 4]));
+    assert!(one <= many * (1.0 + 1e-9) && one > 0.4 * many, "{one} {many}");
+}
+
+#[test]
+fn a_servo_reaches_its_stress() {
+    let more = "motion = { servo = { xx = { stress = -2e4, max_rate = 5.0 }, yy = { stress = -2e4, max_rate = 5.0 }, \
+                zz = { stress = -4e4, max_rate = 5.0 } } }";
+    let text = dense(ROUGH, more).replace(
+        "[run]",
+        "[damping.all]\nlinear = 0.3\nangular = 0.3\ngravity_damped = false\napplied_forces_damped = false\n[run]",
+    );
+    let mut simulation = start(&text);
+    simulation.advance(0.15).unwrap();
+    let stress = simulation.cell_stress();
+    assert_near(&stress[..3], &[-2e4, -2e4, -4e4], 0.02, "stress");
+}
+
+#[test]
+fn a_plane_along_the_edges_that_repeat_carries_the_weight() {
+    let [law, pair] = ROUGH;
+    let mut list = Vec::new();
+    for place in 0..27 {
+        let at = [place % 3, place / 3 % 3, place / 9].map(f64::from);
+        list.push(([0.01 * at[0] + 0.0005 * at[2], 0.01 * at[1], 0.005 + 0.0101 * at[2]], 0.005, [0.0; 3]));
+    }
+    let floor =
+        "[boundary.floor]\nplane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\nmaterial = \"glass\"\n";
+    let cell = cell(cube(0.03), "periodic = [\"x\", \"y\"]");
+    let text = scene(law, pair, &(spheres(&list) + floor + &cell));
+    let damping = "gravity = [0.0, 0.0, -9.81]\n[damping.all]\nlinear = 0.3\nangular = 0.3\ngravity_damped = false\napplied_forces_damped = false\n[run]";
+    let mut simulation = start(&text.replace("[run]", damping));
+    simulation.advance(0.5).unwrap();
+    simulation.advance(0.2).unwrap();
+    let weight = 27.0 * 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.005_f64.powi(3) * 9.81;
+    assert_near(&[simulation.state().boundaries[0].mean_force[2]], &[-weight], 1e-3, "weight");
+}
+
+#[test]
+fn what_a_cell_does_not_go_with_is_refused() {
+    let [law, pair] = SMOOTH;
+    let with = |more: &str, rest: &str| {
+        let list = spheres(&[([0.5, 0.5, 0.5], 0.1, [0.0; 3])]);
+        read(&scene(law, pair, &(list + rest + &cell(cube(1.0), more)))).err().unwrap_or_default()
+    };
+    let floor =
+        "[boundary.floor]\nplane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\nmaterial = \"glass\"\n";
+    for (more, rest, words) in [
+        ("", floor, "one that crosses them"),
+        (
+            "periodic = [\"x\", \"y\"]\nmotion = { driven = [\"xx\"] }",
+            floor,
+            "no boundary beside a [cell] that is deformed",
+        ),
+        ("periodic = [\"x\"]\nmotion = { driven = [\"xy\"] }", "", "xy, where the cell does not repeat"),
+        ("motion = { driven = [\"xx\"], fixed = [\"xx\"] }", "", "xx twice"),
+        ("motion = { shear = \"zz\" }", "", "expected xy, xz or yz"),
+        ("periodic = []", "", "at least one edge"),
+        (
+            "motion = { driven = [\"xx\"] }",
+            "[force.push]\nparticles = { set = \"all\" }\nforce = [1.0, 0.0, 0.0]\n",
+            "neither gravity nor [force]",
+        ),
+        ("", "[domain]\nbox = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]\n", "no [domain] beside [cell]"),
+    ] {
+        let found = with(more, rest);
+        assert!(found.contains(words), "{found}");
+    }
+    let narrow = scene(law, pair, &(spheres(&[([0.0; 3], 0.1, [0.0; 3])]) + &cell(cube(0.05), "")));
+    assert!(read(&narrow).unwrap_err().contains("at least the largest radius"));
+}
+
+#[test]
+fn bonds_across_the_faces_carry_their_stiffness() {
+    let bond = "[bond.glue]\nbetween = [\"all\", \"all\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1e12\ntangential_stiffness = 4e11\n";
+    let (size, radius, strain) = (2e-3, 1e-3, 1e-4_f64);
+    for count in [1, 3] {
+        let sites = (0..count * count * count).map(|place| {
+            let at = [place % count, place / count % count, place / count / count];
+            (at.map(|at| size * f64::from(at)), radius, [0.0; 3])
+        });
+        let edges = cube(size * f64::from(count));
+        let rest = spheres(&sites.collect::<Vec<_>>()) + bond + &cell(edges, "motion = { driven = [\"xx\", \"zz\"] }");
+        let mut simulation = start(&scene("", "", &rest).replace("[pair.glass.glass]\n\n", "").replace("1e-5", "1e-7"));
+        assert_eq!(simulation.bonds().len(), 3 * (count as usize).pow(3));
+        simulation.set_strain(0, strain);
+        simulation.advance(2e-6).unwrap();
+        let force = 1e12 * std::f64::consts::PI * radius * radius * size * strain.exp_m1();
+        let expected = [force / (size * size), 0.0, 0.0, 0.0, 0.0, 0.0];
+        assert_near(&simulation.cell_stress(), &expected, 1e-9, &format!("{count}"));
+    }
+}
+
+#[test]
+fn lengths_scaled_by_a_power_of_two_give_the_same_bits() {
+    let run = |scale: f64| {
+        let mut list = gas(40, 0.1, 1.0);
+        for (place, radius, velocity) in &mut list {
+            (*place, *radius) = (place.map(|part| scale * part), 2.2 * *radius * scale);
+            *velocity = velocity.map(|part| scale * part);
+        }
+        // Pressures scale by the square of lengths, where densities and times stay.
+        let rest = spheres(&list) + &cell(cube(0.1 * scale), DRIVEN);
+        let text = scene(ROUGH[0], ROUGH[1], &rest).replace("1e7", &format!("{:?}", 1e7 * scale * scale));
+        let mut simulation = start(&text.replace("[run]", "[run]\nmax_overlap = 0.3"));
+        (0..6).for_each(|k| simulation.set_strain(k, [-0.05, 0.02, -0.05, 0.4, -0.05, 0.02][k]));
+        simulation.advance(2e-3).unwrap();
+        let cell = simulation.state().cell.as_ref().unwrap();
+        (simulation.cell_stress().map(|part| part / (scale * scale)), cell.work / scale.powi(5), cell.images.len())
+    };
+    let unit = run(1.0);
+    assert!(unit.2 > 10 && unit.0[0] < 0.0);
+    assert_eq!(run(0.125), unit);
+    assert_eq!(run(1024.0), unit);
+}
+
+#[test]
+fn variables_of_a_cell_are_its_inputs_and_what_it_answers() {
+    let [law, pair] = SMOOTH;
+    let more = "motion = { driven = [\"xx\"], servo = { yy = { stress = -1e3, max_rate = 1.0 } }, shear = \"xz\" }";
+    let text = scene(law, pair, &(spheres(&[([0.5; 3], 0.1, [0.0; 3])]) + &cell(cube(1.0), more)));
+    let interface = cograin::interface::Interface::of(&text.parse().unwrap());
+    let names = |outputs: bool| -> Vec<String> {
+        let (ins, outs) = (interface.inputs(), interface.outputs());
+        let all: Vec<_> = if outputs { outs.collect() } else { ins.collect() };
+        all.into_iter().map(|(_, it)| it.name.clone()).filter(|name| name.starts_with("cell.")).collect()
+    };
+    assert_eq!(names(false), ["cell.strain.xx", "cell.shear", "cell.target_stress.yy"]);
+    let outputs = names(true);
+    for name in
+        ["cell.strain.yy", "cell.strain.zz", "cell.stress.xz", "cell.mean_stress.yz", "cell.work", "cell.volume"]
+    {
+        assert!(outputs.iter().any(|output| output == name), "{name} is missing in {outputs:?}");
+    }
+    assert_eq!(outputs.len(), 4 + 6 + 6 + 6 + 4);
+}
+
+#[test]
+fn another_scene_takes_over_what_a_cell_has_come_to() {
+    use cograin::simulation::Description;
+    use std::sync::Arc;
+    let bond = "[bond.glue]\nbetween = [\"all\", \"all\"]\ncreate_distance = 0.02\nnormal_stiffness = 1e9\n\
+                tangential_stiffness = 5e8\n";
+    // At its start the second scene cuts springs of contacts that slide with the velocities of the end of a step.
+    for (law, bond, tolerance) in [(SMOOTH, "", 1e-12), (ROUGH, "", 1e-3), (ROUGH, bond, 1e-3)] {
+        let text = |motion: &str, end: &str| dense(law, &format!("{motion}\n{bond}")).replace("end = 1.0", end);
+        let mut first = start(&text("motion = { shear = \"xz\" }", "end = 1.0"));
+        for step in 1..=4 {
+            first.set_strain(4, 0.3 * f64::from(step));
+            first.advance(2e-3).unwrap();
+        }
+        first.advance(1e-5).unwrap();
+        let from = Description::of(first.scene(), "first.toml", first.time());
+        let second: Arc<cograin::scene::Scene> = Arc::new(text(DRIVEN, "end = 2.0").parse().unwrap());
+        let (second, left) = Simulation::taken_over(second, first.state(), &from).unwrap();
+        assert!(left.is_empty(), "{left:?}");
+        let (before, after) = (first.state().cell.as_ref().unwrap(), second.state().cell.as_ref().unwrap());
+        assert_eq!(after.strain, before.strain);
+        assert_eq!(after.target, before.strain);
+        assert_eq!(second.bonds().len(), first.bonds().len());
+        assert_eq!(second.contact_count(), first.contact_count());
+        let energies = [first.elastic_energy(), second.elastic_energy()];
+        assert!((energies[1] - energies[0]).abs() < tolerance * energies[0], "{energies:?}");
+    }
+}
