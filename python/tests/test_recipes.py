@@ -18,8 +18,11 @@ SAID = {
 
 
 @pytest.mark.parametrize("recipe", SAID)
-def test_a_recipe_couples_to_its_end_and_prints_sense(recipe, program, tmp_path):
-    folder = shutil.copytree(ROOT / "command" / "recipes" / recipe, tmp_path / recipe)
+def test_a_recipe_couples_to_its_end_and_prints_sense(recipe, program, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    program("new", recipe)
+    folder = tmp_path / recipe
+    shutil.copy(ROOT / "command" / "recipes" / recipe / "couple.py", folder)  # whichever program it is
     path = f"{program.path.resolve().parent}{os.pathsep}{os.environ['PATH']}"
     environment = {**os.environ, "PATH": path, "PYTHONPATH": str(ROOT / "python")}
     done = subprocess.run(
