@@ -1,5 +1,6 @@
 //! One communication step: how many time steps, and what is looked at between them.
 
+use super::pace::Seen;
 use super::{RunError, Simulation};
 use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
@@ -65,6 +66,7 @@ impl Simulation {
             Err(error) => return (0.0, Err(error)),
         };
         let result = self.make_steps(&mut underway, most, &standing);
+        self.end_repeat();
         if result.is_ok() && underway.done < underway.count {
             self.state.underway = Some(underway);
             return (underway.elapsed(), Ok(()));
@@ -72,17 +74,28 @@ impl Simulation {
         (underway.elapsed(), result.and_then(|()| self.check_domain()).and_then(|()| self.check_plane()))
     }
 
-    /// Divides a communication step into as many time steps as fit when it begins.
+    /// Divides a communication step into as many time steps as fit when it begins, or as it was divided before.
     fn divided(&mut self, interval: f64, standing: &Context) -> Result<Underway, RunError> {
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        if self.is_due(boundary_speed, step) {
+        let is_automatic = self.scene.run.step.is_automatic();
+        let repeated = is_automatic && self.repeats.begin(&self.state.clock, interval);
+        let seen = self.look_at_contacts(boundary_speed);
+        let is_due = self.is_due(boundary_speed, step);
+        if is_due {
             self.look(step, &Context { step, ..*standing })?;
+        }
+        if let Some(underway) = repeated.then(|| self.part(boundary_speed)).flatten() {
+            return Ok(underway);
+        }
+        if is_due || seen != Seen::Nothing {
             self.shorten_step();
         }
         self.lengthen_step(interval);
         let (count, step) = self.divide(interval)?;
-        Ok(Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed })
+        let underway = Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed };
+        self.note_division(0, &underway);
+        Ok(underway)
     }
 
     /// Divides an interval \[s\] by the present time step, unless nobody can mean so many.
@@ -96,20 +109,24 @@ impl Simulation {
     }
 
     /// Divides what is left of a communication step by the present time step.
-    fn divide_rest(&self, underway: &mut Underway) -> Result<(), RunError> {
-        let (elapsed, length) = (underway.elapsed(), underway.length);
+    fn divide_rest(&mut self, underway: &mut Underway) -> Result<(), RunError> {
+        let (elapsed, length, made) = (underway.elapsed(), underway.length, underway.done);
         let (count, step) = self.divide(length - elapsed)?;
         *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
+        self.note_division(made, underway);
         Ok(())
     }
 
-    /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, the rest is
-    /// divided again.
+    /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, or what is in contact
+    /// asks for others, the rest is divided again.
     fn make_steps(&mut self, underway: &mut Underway, most: u64, standing: &Context) -> Result<(), RunError> {
         let mut left = most;
         while underway.done < underway.count && left > 0 {
+            while let Some(next) = self.next_part(underway) {
+                *underway = next;
+            }
             let step = underway.step;
-            if self.outruns(step) && self.shorten_step() {
+            if self.outruns(step) && !self.goes_on(underway) && self.shorten_step() {
                 self.divide_rest(underway)?;
                 continue;
             }
@@ -125,16 +142,28 @@ impl Simulation {
             if self.boundaries_change_speed() {
                 underway.boundary_speed = self.boundary_speed();
             }
-            if !self.is_due(underway.boundary_speed, step) {
-                continue;
+            let seen = self.look_at_contacts(underway.boundary_speed);
+            let is_due = self.is_due(underway.boundary_speed, step) || (seen == Seen::Everything && self.is_calmer());
+            if is_due {
+                self.check_plane()?;
+                self.look(step, &context)?;
             }
-            self.check_plane()?;
-            self.look(step, &context)?;
-            if self.shorten_step() && done < count {
-                self.divide_rest(underway)?;
+            if is_due || seen != Seen::Nothing {
+                self.follow(seen, underway)?;
             }
         }
         Ok(())
+    }
+
+    /// Chooses another time step for what is left of a communication step, if what was found asks for it.
+    fn follow(&mut self, seen: Seen, underway: &mut Underway) -> Result<(), RunError> {
+        let is_left = underway.done < underway.count;
+        if is_left && self.is_repeated() && (!self.is_too_long() || self.goes_on(underway)) {
+            return Ok(());
+        }
+        let left = underway.length - underway.elapsed();
+        let changes = self.shorten_step() || (seen == Seen::Everything && self.lengthen_step(left));
+        if changes && is_left { self.divide_rest(underway) } else { Ok(()) }
     }
 }
 
