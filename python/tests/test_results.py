@@ -78,6 +78,13 @@ def test_the_history_is_a_table_by_names(folder):
         history["floor.force.zz"]
 
 
+def test_what_is_shown_at_a_prompt_fits_there(folder):
+    run = Run(folder)
+    assert repr(run) == f"<Run in {folder}: .history, .summary, .frames, .breakage>"
+    assert repr(run.history).startswith("<Table of 21 rows: time [s], ") and repr(run.history).endswith(" more>")
+    assert repr(run.frames[0].particles).startswith("<Cloud of 3 points, 3 cells: radius, id, ")
+
+
 def test_frames_are_the_arrays_that_meshio_reads(folder):
     meshio = pytest.importorskip("meshio")
     for kind in ("particles", "contacts", "boundaries", "bonds"):
