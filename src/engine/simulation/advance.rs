@@ -6,9 +6,15 @@ use crate::engine::boundaries::{course, nodes};
 use crate::engine::state::Underway;
 use crate::engine::state::clock::MOST_STEPS;
 use crate::laws::motion::Progress;
+use crate::scene::Boundary;
 
 /// An interval this close to a whole number of time steps (over the time step) counts as that number.
 const WHOLE: f64 = 1e-6;
+
+/// How many times as long as the one before a time step may be where the outside moves boundaries. The forces at the end of a step
+/// begin the next one: after a communication step that is far shorter than a time step, its dashpots would act for far longer than
+/// the motion that they belong to.
+const GROWTH: f64 = 2.0;
 
 impl Simulation {
     /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end. One that was left on its way is not gone on
@@ -81,13 +87,17 @@ impl Simulation {
             self.shorten_step();
         }
         self.lengthen_step(interval);
-        let (count, step) = self.divide(interval)?;
+        let (step, time) = (self.state.clock.step, self.time());
+        if interval < step / MOST_STEPS {
+            return Err(RunError::TooShort { interval, step, time });
+        }
+        let (count, step) = self.divide(interval, step)?;
         Ok(Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed })
     }
 
-    /// Divides an interval \[s\] by the present time step, unless nobody can mean so many.
-    fn divide(&self, interval: f64) -> Result<(u64, f64), RunError> {
-        let (step, time) = (self.state.clock.step, self.time());
+    /// Divides an interval \[s\] by this time step, unless nobody can mean so many.
+    fn divide(&self, interval: f64, step: f64) -> Result<(u64, f64), RunError> {
+        let time = self.time();
         let count = interval / step;
         if count > MOST_STEPS {
             return Err(RunError::TooManySteps { step, count, interval, time });
@@ -95,12 +105,28 @@ impl Simulation {
         Ok(divide(interval, step))
     }
 
-    /// Divides what is left of a communication step by the present time step.
-    fn divide_rest(&self, underway: &mut Underway) -> Result<(), RunError> {
+    /// Divides what is left of a communication step by this time step.
+    fn divide_rest(&self, underway: &mut Underway, step: f64) -> Result<(), RunError> {
         let (elapsed, length) = (underway.elapsed(), underway.length);
-        let (count, step) = self.divide(length - elapsed)?;
+        let (count, step) = self.divide(length - elapsed, step)?;
         *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
         Ok(())
+    }
+
+    /// The time step by which what is left is to be divided anew, since the one before was shorter than time steps are; none where it
+    /// was not.
+    fn growing(&self, underway: &Underway) -> Option<f64> {
+        let clock = &self.state.clock;
+        let left = underway.count - underway.done;
+        if clock.last_step <= 0.0
+            || GROWTH * clock.last_step >= clock.step
+            || !self.scene.boundaries.iter().any(Boundary::is_led)
+        {
+            return None;
+        }
+        let longest = (GROWTH * clock.last_step).max(GROWTH * left as f64 * underway.step / MOST_STEPS);
+        let is_other = underway.step > (1.0 + WHOLE) * longest || (left > 1 && GROWTH * underway.step <= longest);
+        is_other.then_some(longest)
     }
 
     /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, the rest is
@@ -110,7 +136,11 @@ impl Simulation {
         while underway.done < underway.count && left > 0 {
             let step = underway.step;
             if self.outruns(step) && self.shorten_step() {
-                self.divide_rest(underway)?;
+                self.divide_rest(underway, self.state.clock.step)?;
+                continue;
+            }
+            if let Some(longer) = self.growing(underway) {
+                self.divide_rest(underway, longer)?;
                 continue;
             }
             self.check_displacement(step)?;
@@ -131,7 +161,7 @@ impl Simulation {
             self.check_plane()?;
             self.look(step, &context)?;
             if self.shorten_step() && done < count {
-                self.divide_rest(underway)?;
+                self.divide_rest(underway, self.state.clock.step)?;
             }
         }
         Ok(())
