@@ -84,7 +84,8 @@ fn an_elastic_impact_keeps_energy_and_momentum_at_any_ratio_of_masses() {
         assert!((momentum - 1.0).abs() < 1e-12, "{shape} of {ratio}: {momentum} of the momentum");
         // Of what the spring holds where they are nearest.
         let held = ratio / (1.0 + ratio);
-        assert!((energy - 1.0).abs() < 0.01 * held, "{shape} of {ratio}: {energy} with {held} held");
+        // A hundredth of the velocity at which they part, as `accuracy` says.
+        assert!((energy - 1.0).abs() < 0.02 * held, "{shape} of {ratio}: {energy} with {held} held");
         let expected = 2.0 / (1.0 + ratio);
         assert!((body / expected - 1.0).abs() < 0.01, "{shape} of {ratio}: {body} m/s, not {expected} m/s");
         let residual = simulation.energy_residual().expect("a book");

@@ -461,7 +461,7 @@ fn a_light_group_on_a_stiff_contact_shortens_the_stable_step() {
     let run = |motion: &str| {
         let text = paddle(motion, "")
             .replace("radius = 0.006 }", "radius = 0.006, density = 0.25 }")
-            .replace("step = 2.0e-5", "");
+            .replace("step = 2.0e-5", "safety = 0.2");
         let text = text.replace("0.0249], radius = 0.005 }", "0.0249], radius = 0.005, density = 0.25 }");
         start(&text).limit()
     };

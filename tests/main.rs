@@ -27,6 +27,7 @@ mod motions;
 mod neighbours;
 mod nodes;
 mod on_axis;
+mod pace;
 mod packings;
 mod passing;
 mod physics;

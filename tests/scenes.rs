@@ -63,7 +63,7 @@ fn every_good_scene_is_accepted_from_its_file_and_from_its_source_alone() {
 #[test]
 fn an_empty_scene_has_the_defaults() {
     let scene = Scene::from_source(&Source::default()).unwrap();
-    assert_eq!(scene.run.step, Step::Automatic { safety: 0.2 });
+    assert_eq!(scene.run.step, Step::Following);
     assert_eq!((scene.run.seed, scene.run.threads, scene.run.skin), (1, None, None));
     assert_eq!(scene.run.max_overlap, 0.05);
     assert_eq!(scene.gravity, [0.0; 3]);

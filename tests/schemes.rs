@@ -105,11 +105,12 @@ fn accuracy_chooses_scheme_and_step_where_the_scene_does_not() {
     let of = |run: &str| {
         let text = SCENE.replace("step = 2.0e-5\n", "").replace("RUN", run).replace("TANGENTIAL", "history");
         let run = checked(&text).run;
-        let Step::Automatic { safety } = run.step else { panic!("no step is given") };
-        (run.accuracy, run.scheme, safety)
+        (run.accuracy, run.scheme, run.step)
     };
-    assert_eq!(of(""), (Accuracy::Standard, Scheme::PredictedNormal, 0.2));
-    assert_eq!(of("accuracy = \"high\""), (Accuracy::High, Scheme::Predicted, 0.05));
-    assert_eq!(of("accuracy = \"high\"\nscheme = \"midway\"\nsafety = 0.1"), (Accuracy::High, Scheme::Midway, 0.1));
-    assert_eq!(of("scheme = \"predicted\""), (Accuracy::Standard, Scheme::Predicted, 0.2));
+    assert_eq!(of(""), (Accuracy::Standard, Scheme::PredictedNormal, Step::Following));
+    assert_eq!(of("accuracy = \"high\""), (Accuracy::High, Scheme::Predicted, Step::Following));
+    assert_eq!(of("accuracy = 0.02"), (Accuracy::Within(0.02), Scheme::PredictedNormal, Step::Following));
+    let fixed = Step::Automatic { safety: 0.1 };
+    assert_eq!(of("accuracy = \"high\"\nscheme = \"midway\"\nsafety = 0.1"), (Accuracy::High, Scheme::Midway, fixed));
+    assert_eq!(of("scheme = \"predicted\""), (Accuracy::Standard, Scheme::Predicted, Step::Following));
 }

@@ -19,6 +19,9 @@ const AUTOMATIC: [f64; 6] = [0.8, 0.4, 0.2, 0.1, 0.05, 0.025];
 /// The same where the step is given.
 const GIVEN: [f64; 6] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125];
 
+/// The fraction of the stable step that an automatic one takes about, to tell what a chart costs.
+const USUAL: f64 = 0.4;
+
 /// Rows of outputs that are compared, where the scene does not say how often it writes them.
 const ROWS: f64 = 100.0;
 
@@ -42,10 +45,18 @@ pub struct SceneChart {
     pub seconds: f64,
 }
 
+/// A step to be tried.
+struct Choice {
+    /// What it is called.
+    name: String,
+    /// The step.
+    step: Step,
+}
+
 /// A run at one step.
 struct Run {
-    /// Its step: the fraction, or the factor.
-    part: f64,
+    /// What its step is called.
+    name: String,
     /// Time steps made.
     steps: u64,
     /// Wall time of its one thread, while other runs go on beside it \[s\].
@@ -71,37 +82,37 @@ impl SceneChart {
             made += 10;
             each = begun.elapsed().as_secs_f64() / f64::from(made);
         }
-        let own = match chart.scene.run.step {
-            Step::Automatic { safety } => step / safety,
-            Step::Given(step) => step,
+        // Times as many steps as the scene's own makes; what the automatic step makes of itself, about as many as a fifth.
+        let times = |tried: Step| match (tried, chart.scene.run.step) {
+            (Step::Automatic { safety }, Step::Automatic { safety: own }) => own / safety,
+            (Step::Automatic { safety }, _) => USUAL / safety,
+            (Step::Given(tried), Step::Given(own)) => own / tried,
+            _ => 1.0,
         };
-        let of = |part: f64| end / (part * own) * each;
-        let present = if matches!(chart.scene.run.step, Step::Given(_)) { 1.0 } else { step / own };
-        chart.seconds = chart.parts().into_iter().map(of).sum::<f64>() + 2.0 * of(present);
+        let steps: f64 = chart.choices().into_iter().map(|choice| times(choice.step)).sum();
+        chart.seconds = end / step * each * (steps + 2.0);
         Ok(chart)
     }
 
-    /// The steps that are tried.
-    fn parts(&self) -> [f64; 6] {
+    /// The steps that are tried, the finest last.
+    fn choices(&self) -> Vec<Choice> {
+        let fraction = |safety: f64| Choice { name: format!("safety {safety}"), step: Step::Automatic { safety } };
         match self.scene.run.step {
-            Step::Automatic { .. } => AUTOMATIC,
-            Step::Given(_) => GIVEN,
+            Step::Given(step) => GIVEN
+                .map(|part| Choice { name: format!("given step times {part}"), step: Step::Given(part * step) })
+                .into(),
+            Step::Automatic { .. } | Step::Following => {
+                let name = format!("accuracy {}", self.scene.run.accuracy);
+                std::iter::once(Choice { name, step: Step::Following }).chain(AUTOMATIC.map(fraction)).collect()
+            }
         }
     }
 
-    /// The scene at one of them.
-    fn at(&self, part: f64) -> Result<Scene, ChartError> {
+    /// Runs the scene at a step, each interval in so many communication steps.
+    fn run(&self, choice: &Choice, communication_steps: u32) -> Result<Run, ChartError> {
         let mut draft = SceneDraft::clone(&self.scene);
-        draft.run.step = match draft.run.step {
-            Step::Automatic { .. } => Step::Automatic { safety: part },
-            Step::Given(step) => Step::Given(part * step),
-        };
-        Ok(draft.build()?)
-    }
-
-    /// Runs it, each interval in so many communication steps.
-    fn run(&self, part: f64, communication_steps: u32) -> Result<Run, ChartError> {
-        let mut simulation = Simulation::new(Arc::new(self.at(part)?))?;
+        draft.run.step = choice.step;
+        let mut simulation = Simulation::new(Arc::new(draft.build()?))?;
         let interface = Interface::of(&self.scene);
         let begun = Instant::now();
         let mut rows = Vec::new();
@@ -112,41 +123,39 @@ impl SceneChart {
             rows.push(interface.outputs().map(|(index, _)| interface.value(&simulation, index).number()).collect());
         }
         let (steps, seconds) = (simulation.state().clock.steps, begun.elapsed().as_secs_f64());
-        Ok(Run { part, steps, seconds, rows })
+        Ok(Run { name: choice.name.clone(), steps, seconds, rows })
     }
 
     /// Computes the chart.
     pub fn draw(&self) -> Result<Drawing, ChartError> {
-        let (word, own) = match self.scene.run.step {
-            Step::Automatic { safety } => ("safety", safety),
-            Step::Given(_) => ("given step times", 1.0),
-        };
-        // Longest first: what is left at the end, for fewer threads than there are, is short.
+        let own = Choice { name: String::new(), step: self.scene.run.step };
+        // The finest first: what is left at the end, for fewer threads than there are, is short.
+        let choices = self.choices();
         let wanted: Vec<_> =
-            self.parts().into_iter().rev().map(|part| (part, 1)).chain([(own, 1), (own, DIVISIONS)]).collect();
-        let runs: Vec<_> = wanted.par_iter().with_max_len(1).map(|&(part, count)| self.run(part, count)).collect();
+            choices.iter().rev().map(|choice| (choice, 1)).chain([(&own, 1), (&own, DIVISIONS)]).collect();
+        let runs: Vec<_> = wanted.par_iter().with_max_len(1).map(|&(choice, count)| self.run(choice, count)).collect();
         let mut runs = runs.into_iter();
         let expected = runs.next().expect("the finest step is among them")?;
-        let coarser: Vec<_> = runs.by_ref().take(self.parts().len() - 1).collect();
         let mut table = Table::new(COLUMNS);
         let mut notes = Vec::new();
+        let mut coarser = Vec::new();
+        for (choice, run) in choices.iter().rev().skip(1).zip(runs.by_ref()) {
+            match run {
+                Ok(run) => coarser.push(run),
+                Err(error) => notes.push(format!("{}: {error}", choice.name)),
+            }
+        }
+        coarser.sort_by_key(|run| run.steps);
         let mut enough = [None, None];
-        for (part, run) in self.parts().into_iter().zip(coarser.into_iter().rev()) {
-            let run = match run {
-                Ok(run) => run,
-                Err(error) => {
-                    notes.push(format!("{word} {part}: {error}"));
-                    continue;
-                }
-            };
-            let worst = self.compare(&run, &expected, &mut table);
+        for run in &coarser {
+            let worst = self.compare(run, &expected, &mut table);
             notes.push(format!(
-                "{word} {part}: {} time steps, {:.2e} s, error {:.1e} at any moment, {:.1e} in the mean",
-                run.steps, run.seconds, worst[0], worst[1]
+                "{}: {} time steps, {:.2e} s, error {:.1e} at any moment, {:.1e} in the mean",
+                run.name, run.steps, run.seconds, worst[0], worst[1]
             ));
             for (enough, worst) in enough.iter_mut().zip(worst) {
                 if enough.is_none() && worst <= self.wanted {
-                    *enough = Some(part);
+                    *enough = Some(&run.name);
                 }
             }
         }
@@ -156,7 +165,7 @@ impl SceneChart {
         for (enough, when) in enough.into_iter().zip(["at any moment", "in the mean"]) {
             let wanted = self.wanted;
             notes.push(match enough {
-                Some(part) => format!("recommended for an error of {wanted} {when}: {word} {part}"),
+                Some(name) => format!("recommended for an error of {wanted} {when}: {name}"),
                 None => {
                     format!("an error of {wanted} {when} was not reached: a chaotic scene, or a finer step is needed")
                 }
@@ -203,7 +212,14 @@ impl SceneChart {
             worst = [worst[0].max(errors[0]), worst[1].max(errors[1])];
             let (steps, seconds) = (run.steps as f64, run.seconds);
             let [moment, mean] = errors;
-            table.push([kind.name().into(), run.part.into(), steps.into(), seconds.into(), moment.into(), mean.into()]);
+            table.push([
+                kind.name().into(),
+                run.name.clone().into(),
+                steps.into(),
+                seconds.into(),
+                moment.into(),
+                mean.into(),
+            ]);
         }
         worst
     }
@@ -212,7 +228,7 @@ impl SceneChart {
 /// Columns of the table.
 const COLUMNS: [(&str, &str); 6] = [
     ("quantity", ""),
-    ("part", "1"),
+    ("step", ""),
     ("time steps", "1"),
     ("wall time", "s"),
     ("largest error over the largest value", "1"),

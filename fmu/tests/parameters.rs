@@ -87,6 +87,25 @@ fn an_automatic_time_step_is_asked_for_by_0() {
 }
 
 #[test]
+fn an_automatic_time_step_follows_the_accuracy_that_a_host_gives() {
+    let unit = Unpacked::new();
+    let step = |settings: &[(&str, f64)]| {
+        let host = Host::instantiated(&unit);
+        assert_eq!(host.set("run.time_step", 0.0), Status::Ok);
+        for (name, value) in settings {
+            assert_eq!(host.set(name, *value), Status::Ok, "{}", host.said());
+        }
+        assert_eq!(start(&host), Status::Ok, "{}", host.said());
+        host.get("time_step.current")
+    };
+    let standard = step(&[]);
+    assert_eq!(step(&[("run.safety", 0.0)]), standard);
+    assert_eq!(step(&[("run.accuracy", 0.01)]), standard);
+    let exact = step(&[("run.accuracy", 1e-4)]);
+    assert!(exact <= standard, "{exact} s, {standard} s by default");
+}
+
+#[test]
 fn a_tunable_parameter_changes_on_the_way_and_belongs_to_the_state() {
     let unit = Unpacked::new();
     let (host, other) = (Host::instantiated(&unit), Host::started(&unit));

@@ -47,6 +47,8 @@ checked!(/// A number from 0 to 1.
     Fraction, value => (0.0..=1.0).contains(&value), "a number from 0 to 1");
 checked!(/// A number above 0 and below 1: how much of the stable step an automatic time step takes.
     Safety, value => value > 0.0 && value < 1.0, "a number above 0 and below 1");
+checked!(/// A number from 0 to below 1.
+    BelowOne, value => (0.0..1.0).contains(&value), "a number from 0 to below 1");
 checked!(/// Poisson's ratio of an isotropic material: from 0 to ½.
     PoissonsRatio, value => (0.0..=0.5).contains(&value), "a number from 0 to 0.5");
 

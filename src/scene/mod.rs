@@ -136,7 +136,7 @@ pub struct Run {
     pub end: Option<f64>,
     /// The time step.
     pub step: Step,
-    /// The accuracy for which scheme and time step are chosen, if the scene does not name them.
+    /// The accuracy for which scheme and time step are chosen, where the scene does not name them.
     pub accuracy: Accuracy,
     /// How springs and dashpots of contacts are integrated in time.
     pub scheme: Scheme,
@@ -166,7 +166,7 @@ impl Default for Run {
     fn default() -> Self {
         Self {
             end: None,
-            step: Step::Automatic { safety: Self::SAFETY },
+            step: Step::Following,
             accuracy: Accuracy::Standard,
             scheme: Scheme::default(),
             allow_unstable: false,
@@ -183,11 +183,6 @@ impl Default for Run {
     }
 }
 
-impl Run {
-    /// Fraction of the stable step that an automatic time step takes if the scene names none.
-    pub const SAFETY: f64 = accuracy::SAFETY;
-}
-
 /// The time step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
@@ -198,6 +193,15 @@ pub enum Step {
         /// The fraction, above 0 and below 1.
         safety: f64,
     },
+    /// The longest at which what is in contact now is as accurate as [`Run::accuracy`] says.
+    Following,
+}
+
+impl Step {
+    /// Whether the program chooses it.
+    pub fn is_automatic(self) -> bool {
+        !matches!(self, Self::Given(_))
+    }
 }
 
 /// `[contact.<name>]`: one composed law and the materials it is for.

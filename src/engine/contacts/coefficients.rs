@@ -28,6 +28,17 @@ const SAME: f64 = 2e-3;
 /// Overlap over the effective radius below which no impact is thought: what touches has a stiffness.
 const LEAST_OVERLAP: f64 = 1e-12;
 
+/// A law and its coefficients for two materials.
+#[derive(Clone, Copy)]
+pub(crate) struct MaterialRow<'a> {
+    /// Index of the law, and those of the materials, ascending.
+    pub key: (u32, [u32; 2]),
+    /// The law.
+    pub law: &'a Law,
+    /// The coefficients.
+    pub row: &'a [f64],
+}
+
 /// Coefficients of a law for each two materials of the scene.
 #[derive(Clone, Debug)]
 pub(crate) struct CoefficientTable {
@@ -101,6 +112,12 @@ impl CoefficientTable {
         let contact = Contact { pair_constant: law.pair_constant(row, radius, mass), ..meeting.contact };
         let overlap = overlap_of(law, row, &contact, meeting.energy, radius).max(LEAST_OVERLAP * radius);
         Some(frames(law, row, &Contact { overlap, ..contact }))
+    }
+
+    /// The coefficients of a law of this index for two materials, where it governs them.
+    pub(crate) fn material_row<'a>(&'a self, index: u32, law: &'a Law, [a, b]: [u32; 2]) -> Option<MaterialRow<'a>> {
+        let governed = self.governed[self.entry(a, b) as usize];
+        governed.then(|| MaterialRow { key: (index, [a.min(b), a.max(b)]), law, row: self.row(a, b) })
     }
 
     /// The coefficients for two materials.

@@ -3,6 +3,7 @@
 mod ahead;
 pub(crate) mod batches;
 pub(crate) mod coefficients;
+mod encounters;
 mod listed;
 mod pairs;
 pub(crate) mod particles;
@@ -12,6 +13,7 @@ pub(crate) mod suppression;
 pub(crate) mod surfaces;
 
 pub(crate) use ahead::{FASTER, Frame, Kind, Link, Meeting, SearchLimits};
+pub(crate) use encounters::Encounters;
 pub(crate) use listed::SLIGHT;
 pub(crate) use pass::Pass;
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

@@ -12,11 +12,13 @@ use crate::base::lanes::Shared;
 use crate::base::threads::Context;
 use crate::engine::contacts::batches::SpherePair;
 use crate::engine::contacts::batches::{BatchLaw, Batches, ContactGeometry, Entries, Lost};
-use crate::engine::contacts::coefficients::CoefficientTable;
+use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};
+use crate::engine::contacts::encounters::{self, Encounters};
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{ContactList, Particles, State, StateFault};
 use crate::laws::contact::{Contact, Law};
+use crate::scene::Scene;
 use std::sync::{Mutex, PoisonError};
 
 /// The pass of one contact law.
@@ -78,6 +80,20 @@ impl Pass for ContactPass {
             let found = self.table.impact(&self.law.law, [first, second], meeting);
             found.into_iter().for_each(|parts| tell(None, parts));
         }
+    }
+
+    fn rows(&self, scene: &Scene, tell: &mut dyn FnMut(MaterialRow)) {
+        let present = scene.present();
+        let here = || (0..present.len()).filter(|&material| present[material]).map(|material| material as u32);
+        for a in here() {
+            for b in here().filter(|&b| b >= a) {
+                self.table.material_row(self.index as u32, &self.law.law, [a, b]).into_iter().for_each(&mut *tell);
+            }
+        }
+    }
+
+    fn encounters(&self, state: &State, found: &mut Encounters) {
+        encounters::of_list(self, state, found);
     }
 
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {

@@ -1,6 +1,8 @@
 //! What the passes of a time step have in common.
 
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
+use super::coefficients::MaterialRow;
+use super::encounters::Encounters;
 use super::records::{BondRecord, ContactRecord};
 use crate::base::threads::Context;
 use crate::engine::run_error::RunError;
@@ -52,6 +54,13 @@ pub(crate) trait Pass: Send + Sync {
     /// Tells springs and dashpots of an impact where it is deepest: of two particles, or of one and each surface with a boundary's
     /// index.
     fn impacts(&self, _state: &State, _meeting: &Meeting, _tell: &mut dyn FnMut(Option<u32>, [Frame; 2])) {}
+
+    /// Tells each law with its coefficients for two materials that can meet, where these are those of particles: number of the law,
+    /// materials, law, row.
+    fn rows(&self, _scene: &Scene, _tell: &mut dyn FnMut(MaterialRow)) {}
+
+    /// Adds the energies of contacts at work and of those to come until the lists are made anew.
+    fn encounters(&self, _state: &State, _found: &mut Encounters) {}
 
     /// Tells each contact at work as it was in the last evaluation. Changes nothing.
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}

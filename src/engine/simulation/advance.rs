@@ -1,5 +1,6 @@
 //! One communication step: how many time steps, and what is looked at between them.
 
+use super::pace::Seen;
 use super::{RunError, Simulation};
 use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
@@ -71,6 +72,7 @@ impl Simulation {
             Err(error) => return (0.0, Err(error)),
         };
         let result = self.make_steps(&mut underway, most, &standing);
+        self.end_repeat();
         if result.is_ok() && underway.done < underway.count {
             self.state.underway = Some(underway);
             return (underway.elapsed(), Ok(()));
@@ -78,12 +80,21 @@ impl Simulation {
         (underway.elapsed(), result.and_then(|()| self.check_domain()).and_then(|()| self.check_plane()))
     }
 
-    /// Divides a communication step into as many time steps as fit when it begins.
+    /// Divides a communication step into as many time steps as fit when it begins, or as it was divided before.
     fn divided(&mut self, interval: f64, standing: &Context) -> Result<Underway, RunError> {
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        if self.is_due(boundary_speed, step) {
+        let is_automatic = self.scene.run.step.is_automatic();
+        let repeated = is_automatic && self.repeats.begin(&self.state.clock, interval);
+        let seen = self.look_at_contacts(boundary_speed);
+        let is_due = self.is_due(boundary_speed, step);
+        if is_due {
             self.look(step, &Context { step, ..*standing })?;
+        }
+        if let Some(underway) = repeated.then(|| self.part(boundary_speed)).flatten() {
+            return Ok(underway);
+        }
+        if is_due || seen != Seen::Nothing {
             self.shorten_step();
         }
         self.lengthen_step(interval);
@@ -92,7 +103,9 @@ impl Simulation {
             return Err(RunError::TooShort { interval, step, time });
         }
         let (count, step) = self.divide(interval, step)?;
-        Ok(Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed })
+        let underway = Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed };
+        self.note_division(0, &underway);
+        Ok(underway)
     }
 
     /// Divides an interval \[s\] by this time step, unless nobody can mean so many.
@@ -106,36 +119,38 @@ impl Simulation {
     }
 
     /// Divides what is left of a communication step by this time step.
-    fn divide_rest(&self, underway: &mut Underway, step: f64) -> Result<(), RunError> {
-        let (elapsed, length) = (underway.elapsed(), underway.length);
+    fn divide_rest(&mut self, underway: &mut Underway, step: f64) -> Result<(), RunError> {
+        let (elapsed, length, made) = (underway.elapsed(), underway.length, underway.done);
         let (count, step) = self.divide(length - elapsed, step)?;
         *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
+        self.note_division(made, underway);
         Ok(())
     }
 
-    /// The time step by which what is left is to be divided anew, since the one before was shorter than time steps are; none where it
-    /// was not.
+    /// The time step by which what is left is to be divided anew, since the one before was far shorter than time steps are; none where
+    /// it was not.
     fn growing(&self, underway: &Underway) -> Option<f64> {
-        let clock = &self.state.clock;
-        let left = underway.count - underway.done;
-        if clock.last_step <= 0.0
-            || GROWTH * clock.last_step >= clock.step
-            || !self.scene.boundaries.iter().any(Boundary::is_led)
-        {
+        let (last, whole) = (self.state.clock.last_step, self.state.clock.step);
+        if last <= 0.0 || self.is_repeated() || !self.scene.boundaries.iter().any(Boundary::is_led) {
             return None;
         }
-        let longest = (GROWTH * clock.last_step).max(GROWTH * left as f64 * underway.step / MOST_STEPS);
-        let is_other = underway.step > (1.0 + WHOLE) * longest || (left > 1 && GROWTH * underway.step <= longest);
+        let left = underway.count - underway.done;
+        let most = GROWTH * last.max(left as f64 * underway.step / MOST_STEPS);
+        let longest = whole.min(most);
+        let is_other = underway.step > (1.0 + WHOLE) * most || (left > 1 && GROWTH * underway.step <= longest);
         is_other.then_some(longest)
     }
 
-    /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, the rest is
-    /// divided again.
+    /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, or what is in contact
+    /// asks for others, the rest is divided again.
     fn make_steps(&mut self, underway: &mut Underway, most: u64, standing: &Context) -> Result<(), RunError> {
         let mut left = most;
         while underway.done < underway.count && left > 0 {
+            while let Some(next) = self.next_part(underway) {
+                *underway = next;
+            }
             let step = underway.step;
-            if self.outruns(step) && self.shorten_step() {
+            if self.outruns(step) && !self.goes_on(underway) && self.shorten_step() {
                 self.divide_rest(underway, self.state.clock.step)?;
                 continue;
             }
@@ -155,16 +170,28 @@ impl Simulation {
             if self.boundaries_change_speed() {
                 underway.boundary_speed = self.boundary_speed();
             }
-            if !self.is_due(underway.boundary_speed, step) {
-                continue;
+            let seen = self.look_at_contacts(underway.boundary_speed);
+            let is_due = self.is_due(underway.boundary_speed, step) || (seen == Seen::Everything && self.is_calmer());
+            if is_due {
+                self.check_plane()?;
+                self.look(step, &context)?;
             }
-            self.check_plane()?;
-            self.look(step, &context)?;
-            if self.shorten_step() && done < count {
-                self.divide_rest(underway, self.state.clock.step)?;
+            if is_due || seen != Seen::Nothing {
+                self.follow(seen, underway)?;
             }
         }
         Ok(())
+    }
+
+    /// Chooses another time step for what is left of a communication step, if what was found asks for it.
+    fn follow(&mut self, seen: Seen, underway: &mut Underway) -> Result<(), RunError> {
+        let is_left = underway.done < underway.count;
+        if is_left && self.is_repeated() && (!self.is_too_long() || self.goes_on(underway)) {
+            return Ok(());
+        }
+        let left = underway.length - underway.elapsed();
+        let changes = self.shorten_step() || (seen == Seen::Everything && self.lengthen_step(left));
+        if changes && is_left { self.divide_rest(underway, self.state.clock.step) } else { Ok(()) }
     }
 }
 

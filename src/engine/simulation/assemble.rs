@@ -12,7 +12,7 @@ use crate::engine::contacts::surfaces::SurfacePass;
 use crate::engine::flow;
 use crate::engine::neighbours;
 use crate::engine::state::{
-    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Nodes, Particles, State,
+    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Nodes, Pace, Particles, State,
     WallContacts,
 };
 use crate::scene::{Boundary, Scene};
@@ -27,6 +27,7 @@ pub(super) fn state(scene: &Scene) -> State {
         clock: Clock::default(),
         underway: None,
         foresight: Foresight::default(),
+        pace: Pace::default(),
         neighbours: lists,
         coefficients: scene.contacts.iter().map(|law| coefficients::rows(law, scene)).collect(),
         tuned: scene.tunables().map(|parameter| parameter.value).collect(),

@@ -5,7 +5,6 @@ use crate::base::quantity::MaterialIndex;
 use crate::engine::state::ledger::Source;
 use crate::laws::bond::keys::KeyError;
 use crate::laws::contact::{MaterialPair, Missing, PairProperties};
-use crate::scene::Step;
 
 /// Why parameters were not changed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -105,7 +104,7 @@ impl Simulation {
         for pass in self.passes.iter().filter(|pass| pass.source() != Source::Bonds) {
             pass.prepare(&mut self.state);
         }
-        if let Step::Automatic { .. } = self.scene.run.step {
+        if self.scene.run.step.is_automatic() {
             self.state.clock.stable = self.stable_step();
             self.shorten_step();
         }
@@ -119,5 +118,6 @@ impl Simulation {
             pass.take_strengths(scene, state);
         }
         self.search.take_coefficients(&self.scene, &self.state);
+        self.try_impacts();
     }
 }

@@ -1,5 +1,6 @@
 //! How a simulation comes into being: built from a scene, or taken over with a state of it.
 
+use super::repeats::Repeats;
 use super::rollback::Rollback;
 use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
@@ -11,8 +12,9 @@ use crate::engine::contacts::suppression::Suppression;
 use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
-use crate::engine::state::{Foresight, State, StateFault};
+use crate::engine::state::{Foresight, Pace, State, StateFault};
 use crate::laws::bond::creation::Moment;
+use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
 use std::sync::Arc;
 
@@ -47,6 +49,7 @@ impl Simulation {
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             flow,
+            errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
             passing: Passing::of(&scene),
             suppression: Suppression::of(&scene),
@@ -56,6 +59,7 @@ impl Simulation {
             state,
             workspace: Workspace::default(),
             rollback: Rollback::default(),
+            repeats: Repeats::default(),
             stop: None,
             watch: None,
         };
@@ -98,9 +102,10 @@ impl Simulation {
         self.book_second_kick(None, 0.0, &context);
         self.open_energy_book();
         result.map_err(|error| self.named(error))?;
-        self.state.foresight = Foresight::default();
+        (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, 0.0);
         self.state.clock.speed = integration::coming_speed(&self.state.particles, 0.0).max(groups);
+        self.find_pace(self.state.clock.speed.max(self.boundary_speed()), true);
         self.first_step(&context)?;
         self.look_at_pressed();
         let step = self.state.clock.step;

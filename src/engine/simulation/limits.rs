@@ -22,6 +22,9 @@ const STEPS_BETWEEN_LOOKS_OF_SERVOS: u64 = 8;
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
 
+/// Largest speed over that of the last look at which the stable time step is looked at again.
+const CALMER: f64 = 0.25;
+
 /// How much longer the automatic time step may be than that for which it was foreseen.
 const MUCH_LONGER: f64 = 20.0;
 
@@ -98,10 +101,7 @@ impl Simulation {
 
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
-        match self.scene.run.step {
-            Step::Given(_) => None,
-            Step::Automatic { safety } => Some((safety * stable).min(self.longest_by_motion())),
-        }
+        Some((self.part_of_stable()? * stable).min(self.longest_by_motion()).min(self.longest_by_springs()))
     }
 
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and
@@ -121,8 +121,8 @@ impl Simulation {
 
     /// Whether what moves fastest goes too far in an automatic time step of this length \[s\].
     pub(super) fn outruns(&self, step: f64) -> bool {
-        let is_automatic = matches!(self.scene.run.step, Step::Automatic { .. });
-        is_automatic && self.state.clock.speed * step > MOST_WAY[1] * self.search.smallest_radius()
+        self.scene.run.step.is_automatic()
+            && self.state.clock.speed * step > MOST_WAY[1] * self.search.smallest_radius()
     }
 
     /// How far is to be foreseen at the next look, for time steps of this length \[s\]. The farther they are below the stable one, the
@@ -133,7 +133,7 @@ impl Simulation {
         match self.scene.run.step {
             _ if !is_far => Horizon::NEAR,
             Step::Given(step) => Horizon { faster: (FASTER * (stable / step).powi(2)).min(MOST_FORESEEN), is_far },
-            Step::Automatic { .. } => Horizon { faster: FASTER, is_far },
+            Step::Automatic { .. } | Step::Following => Horizon { faster: FASTER, is_far },
         }
     }
 
@@ -158,6 +158,7 @@ impl Simulation {
             travel: 0.0,
             reach: 0.5 * sight.ahead.way,
             speed: growth * sight.speed,
+            fastest: self.state.clock.speed,
             bonds,
             until: window.map_or(0, |window| window.until),
             to: window.map_or(0.0, |window| window.to),
@@ -241,6 +242,16 @@ impl Simulation {
         self.scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.at(time).is_some()))
     }
 
+    /// Whether what moves fastest has become so much slower since the stable time step was found that a longer one may be.
+    pub(super) fn is_calmer(&self) -> bool {
+        self.state.clock.speed < CALMER * self.state.foresight.fastest
+    }
+
+    /// Whether an automatic time step is longer than it would be chosen now.
+    pub(super) fn is_too_long(&self) -> bool {
+        self.automatic_step(self.state.clock.stable).is_some_and(|step| step < self.state.clock.step)
+    }
+
     /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther. Returns whether it has.
     pub(super) fn shorten_step(&mut self) -> bool {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
@@ -252,15 +263,18 @@ impl Simulation {
         shorter
     }
 
-    /// Lengthens an automatic time step, before a communication step of this length \[s\], where the packing allows a good deal more.
-    pub(super) fn lengthen_step(&mut self, interval: f64) {
-        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
+    /// Lengthens an automatic time step, of which this is left of a communication step \[s\], where a good deal more is allowed. Returns
+    /// whether it has.
+    pub(super) fn lengthen_step(&mut self, left: f64) -> bool {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
         let clock = &mut self.state.clock;
+        let longer = step > LENGTHENING * clock.step;
         if step.is_infinite() {
-            clock.step = interval;
-        } else if step > LENGTHENING * clock.step {
+            clock.step = left;
+        } else if longer {
             clock.step = step;
         }
+        longer
     }
 
     /// The time step of the start, by what was found.

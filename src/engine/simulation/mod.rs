@@ -13,9 +13,11 @@ mod lists;
 mod losses;
 mod memory_check;
 mod observe;
+mod pace;
 mod placement;
 mod plane;
 mod probe;
+mod repeats;
 mod rollback;
 mod run_checks;
 mod sight;
@@ -50,7 +52,9 @@ use crate::engine::flow::Flow;
 use crate::engine::integration::Fields;
 use crate::engine::neighbours;
 use crate::engine::state::State;
+use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
+use repeats::Repeats;
 use rollback::Rollback;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -67,6 +71,8 @@ pub struct Simulation {
     fields: Fields,
     /// Groups that turn or that forces move; `None` for other boundaries.
     bodies: Vec<Option<RigidBody>>,
+    /// What a time step makes of impacts, where it follows them.
+    errors: ErrorCurve,
     /// The neighbour search.
     search: neighbours::Search,
     /// How particles came to where they are, as boundaries see it.
@@ -87,6 +93,8 @@ pub struct Simulation {
     workspace: Workspace,
     /// What is needed to return to the beginning of a communication step that fails.
     rollback: Rollback,
+    /// How communication steps were divided.
+    repeats: Repeats,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each part of a time step.
@@ -104,6 +112,8 @@ struct Workspace {
     damping_force: [f64; 3],
     /// Nodes of meshes before the time step.
     nodes: nodes::NodeWorkspace,
+    /// How many contacts each body has.
+    contacts: Vec<u8>,
     /// Bonds of each law before some were made.
     bonds: Vec<usize>,
     /// Loads between one kind of force and the next, for the energy book.

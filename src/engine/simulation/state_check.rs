@@ -29,7 +29,7 @@ impl Simulation {
         demand(orientations, "orientation", state.particles.orientation.len(), "one for each particle")?;
         let step = match self.scene.run.step {
             Step::Given(step) => state.clock.step == step,
-            Step::Automatic { .. } => (0.0..f64::INFINITY).contains(&state.clock.step),
+            Step::Automatic { .. } | Step::Following => (0.0..f64::INFINITY).contains(&state.clock.step),
         };
         demand(step, "clock", 2, "the time step of the scene")?;
         for (place, (parameter, &value)) in self.scene.tunables().zip(&state.tuned).enumerate() {

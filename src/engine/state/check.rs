@@ -7,7 +7,7 @@
 
 use super::boundaries::Pressed;
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
-use super::{Exchange, GONE, History, NearParts, Nodes, Row, State, Underway, WallContacts};
+use super::{Exchange, GONE, History, NearParts, Nodes, Pace, Row, State, Underway, WallContacts};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -136,6 +136,7 @@ impl State {
         self.clock.check()?;
         self.underway.iter().try_for_each(Underway::check)?;
         self.foresight.check()?;
+        self.pace.check()?;
         self.particles.check()?;
         let count = self.particles.len();
         self.neighbours.check(count, self.boundaries.len(), &self.clock)?;
@@ -198,11 +199,21 @@ impl Underway {
 impl Foresight {
     /// Whether this can be one. What is not foreseen may be infinite.
     fn check(&self) -> Result<(), StateFault> {
-        let Self { root, counter, looks, travel, reach, speed, bonds, until: _, to } = *self;
-        let numbers = [root, travel, reach, speed, to].iter().all(|number| !number.is_nan());
+        let Self { root, counter, looks, travel, reach, speed, fastest, bonds, until: _, to } = *self;
+        let numbers = [root, travel, reach, speed, fastest, to].iter().all(|number| !number.is_nan());
         demand(numbers, "foresight", 0, "numbers")?;
         let counts = [counter, looks, bonds[0], bonds[1]].iter().all(|&count| count < MOST);
         demand(counts, "foresight", 1, "a count that can be reached")
+    }
+}
+
+impl Pace {
+    /// Whether this can be one.
+    fn check(&self) -> Result<(), StateFault> {
+        let Self { share, packed, whole_at, until, rebuilds, speed } = *self;
+        demand((0.0..=1.0).contains(&share), "pace", 0, "a share from 0 to 1")?;
+        demand(packed >= 0.0 && speed >= 0.0 && until >= 0.0, "pace", 1, "numbers of 0 or above")?;
+        demand(whole_at < MOST && rebuilds < MOST, "pace", 2, "a count that can be reached")
     }
 }
 

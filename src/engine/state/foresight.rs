@@ -17,6 +17,8 @@ pub struct Foresight {
     pub reach: f64,
     /// The speed at which it is computed again \[m/s\].
     pub speed: f64,
+    /// The largest speed of a particle when it was computed \[m/s\].
+    pub fastest: f64,
     /// Bonds made and bonds broken when it was computed.
     pub bonds: [u64; 2],
     /// Number of the last time step whose new bonds were counted.

@@ -16,6 +16,7 @@ pub mod ledger;
 pub mod losses;
 pub mod nodes;
 mod number;
+pub mod pace;
 pub mod particles;
 mod plain;
 pub mod snapshot;
@@ -33,6 +34,7 @@ pub use ledger::Ledger;
 pub use losses::{Loss, Losses};
 pub use nodes::Nodes;
 pub use number::InsertedParticle;
+pub use pace::Pace;
 pub use particles::{GONE, Particles};
 
 pub use crate::base::number::Row;
@@ -49,6 +51,8 @@ pub struct State {
     pub underway: Option<Underway>,
     /// For which conditions the stable time step was computed.
     pub foresight: Foresight,
+    /// What the automatic time step knows of the contacts.
+    pub pace: Pace,
     /// Positions, velocities, forces.
     pub particles: Particles,
     /// When and for where the lists below were made.
@@ -87,6 +91,7 @@ clone_in_place!(State {
     clock,
     underway,
     foresight,
+    pace,
     particles,
     neighbours,
     coefficients,

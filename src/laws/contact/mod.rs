@@ -15,6 +15,7 @@ pub mod cohesion;
 #[cfg(test)]
 pub(crate) mod fixtures;
 mod functions;
+pub(crate) mod impact;
 mod law;
 mod losses;
 mod material;

@@ -157,7 +157,7 @@ pub(super) fn steps(scene: &Scene, simulation: &Simulation) -> String {
     let (limit, step) = (simulation.limit(), simulation.state().clock.step);
     let by = limit.by.map_or_else(String::new, |by| format!(" ({})", simulation.words(&by)));
     let chosen = match scene.run.step {
-        Step::Automatic { .. } => "chosen by the unit, which follows the stable one",
+        Step::Automatic { .. } | Step::Following => "chosen by the unit, which follows the stable one",
         Step::Given(_) => "given by the scene",
     };
     let stable = if limit.safe.is_finite() {

@@ -5,10 +5,11 @@ use super::trial;
 use crate::base::quantity::BoundaryIndex;
 use crate::base::words::counted;
 use crate::engine::simulation::Simulation;
+use crate::laws::contact::impact::LONGEST_PART;
 use crate::laws::surface::Group;
 use crate::scene::{
-    Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Outside, Particle, Run, Scene, SceneDraft,
-    Shape, Step,
+    Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Outside, Particle, Scene, SceneDraft, Shape,
+    Step,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -46,7 +47,7 @@ pub(super) fn of(scene: &Arc<Scene>, present: &Simulation, speed: f64) -> Vec<St
         lines.extend(scene.bonds.iter().filter_map(|bond| as_a_group(scene, present, bond)));
     }
     lines.extend(soft_enough(scene, present, speed));
-    lines.extend(safety(scene));
+    lines.extend(safety(scene, present));
     lines.extend((0..scene.boundaries.len() as u32).filter_map(|index| fine_mesh(scene, BoundaryIndex(index))));
     lines
 }
@@ -185,16 +186,57 @@ fn pressure(scene: &Scene) -> f64 {
     gravity * scene.particles.iter().map(Particle::mass).sum::<f64>() / area
 }
 
-/// A fraction of the stable step that is smaller than what a scene takes by default: steps go as its inverse.
-fn safety(scene: &Scene) -> Option<String> {
-    let Step::Automatic { safety } = scene.run.step else { return None };
-    let factor = Run::SAFETY / safety;
+/// The time step at the start of a scene that names neither step nor accuracy \[s\].
+pub(super) fn default_step(scene: &Scene) -> Option<f64> {
+    let mut draft = SceneDraft::clone(scene);
+    (draft.run.step, draft.run.accuracy) = (Step::Following, Accuracy::default());
+    let simulation = Simulation::new(Arc::new(draft.build().ok()?)).ok()?;
+    Some(simulation.state().clock.step)
+}
+
+/// A time step that is shorter than by default, or with which impacts are less accurate.
+fn safety(scene: &Scene, present: &Simulation) -> Vec<String> {
+    match scene.run.step {
+        Step::Given(_) => Vec::new(),
+        Step::Automatic { safety } => {
+            let factor = LONGEST_PART / safety;
+            let longer = (factor > LEAST)
+                .then(|| format!("[run] safety = {safety}: up to {factor:.1} times the steps of the default in a bed"));
+            longer.into_iter().chain(dissipation(present, safety)).collect()
+        }
+        Step::Following => exactness(scene, present).into_iter().collect(),
+    }
+}
+
+/// An accuracy that costs more time steps than the default.
+fn exactness(scene: &Scene, present: &Simulation) -> Option<String> {
+    let mut draft = SceneDraft::clone(scene);
+    draft.run.accuracy = Accuracy::default();
+    let usual = Simulation::new(Arc::new(draft.build().ok()?)).ok()?;
+    let factor = usual.part_of_impacts() / present.part_of_impacts();
     let chosen = match scene.run.accuracy {
-        accuracy if accuracy != Accuracy::default() => format!("accuracy = \"{}\"", accuracy.name()),
-        _ => format!("safety = {safety}"),
+        Accuracy::Within(error) => format!("{error}"),
+        word => format!("\"{word}\""),
     };
-    (factor > LEAST)
-        .then(|| format!("[run] {chosen}: {factor:.1} times the steps of the default, safety {}", Run::SAFETY))
+    (factor > LEAST).then(|| {
+        format!("[run] accuracy = {chosen}: {factor:.1} times the steps of the default while two bodies collide")
+    })
+}
+
+/// What a fraction of the stable step makes of the impact with the largest error.
+fn dissipation(present: &Simulation, safety: f64) -> Option<String> {
+    let tried = present.impacts().into_iter().map(|impact| {
+        let restitution = impact.restitution();
+        (restitution, impact.error(safety, restitution))
+    });
+    let (restitution, error) =
+        tried.reduce(|most, next| if next.1.restitution > most.1.restitution { next } else { most })?;
+    let (percent, word) = (100.0 * error.dissipation.abs(), if error.dissipation < 0.0 { "less" } else { "more" });
+    (error.restitution > Accuracy::default().error()).then(|| {
+        format!(
+            "[run] safety = {safety}: an impact of two bodies alone with e = {restitution:.2} dissipates {percent:.0} % {word} than it should"
+        )
+    })
 }
 
 /// A mesh whose facets are smaller than what touches them.

@@ -4,6 +4,7 @@ use super::passing::{Files, ParticleExchange};
 use super::trial::Trial;
 use crate::base::words::{counted, duration};
 use crate::engine::simulation::Simulation;
+use crate::laws::contact::impact::LONGEST_PART;
 use crate::output::results::schedule::{Counted, Schedule};
 use crate::scene::{Scene, Step};
 use std::sync::Arc;
@@ -120,8 +121,12 @@ fn steps(
     trial: &Trial,
 ) -> [Counted; 3] {
     let now = present.state().clock.step;
-    let Step::Automatic { safety } = scene.run.step else {
+    let Some(part) = present.part_of_stable() else {
         return [schedule.steps(begins, now); 3];
+    };
+    let [smallest, largest] = match scene.run.step {
+        Step::Following => [present.part_of_impacts(), LONGEST_PART],
+        _ => [part; 2],
     };
     let mut falling = present.state().clone();
     let speed = fall(scene, present);
@@ -130,9 +135,9 @@ fn steps(
     }
     let bound =
         Simulation::resume(Arc::clone(scene), falling).map_or_else(|_| present.stable_step(), |it| it.stable_step());
-    let longest = AT_REST * now.max(trial.last_step);
-    let fallen = (safety * bound).min(longest);
-    let shortest = (IN_A_PACKING * fallen).min(now).min(trial.last_step);
+    let longest = AT_REST * now.max(trial.last_step) * largest / part;
+    let fallen = ((smallest * largest).sqrt() * bound).min(longest);
+    let shortest = (IN_A_PACKING * smallest * bound).min(fallen).min(now).min(trial.last_step);
     [longest, fallen.max(shortest), shortest].map(|step| schedule.steps(begins, step))
 }
 

@@ -287,11 +287,12 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> String {
     let chosen = match scene.run.step {
         Step::Given(_) => "given".to_owned(),
         Step::Automatic { safety } => format!("automatic, safety {safety}"),
+        Step::Following => "automatic".to_owned(),
     };
-    let chosen = format!("{chosen}, accuracy {}, scheme {}", scene.run.accuracy.name(), scene.run.scheme.name());
+    let chosen = format!("{chosen}, accuracy {}, scheme {}", scene.run.accuracy, scene.run.scheme.name());
     let limit = simulation.limit();
     if !limit.safe.is_finite() {
-        let most = if matches!(scene.run.step, Step::Automatic { .. }) { " at most" } else { "" };
+        let most = if scene.run.step.is_automatic() { " at most" } else { "" };
         return format!("{step:.4e} s{most} ({chosen}); nothing is stiff, no bound");
     }
     let by = limit.by.map_or_else(String::new, |by| format!(", limited by {}", simulation.words(&by)));

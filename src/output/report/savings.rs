@@ -1,6 +1,6 @@
 //! What a scene pays for and could drop, with the saving measured: the scene is run for a moment with and without it.
 
-use super::trial;
+use super::{economy, trial};
 use crate::base::quantity::NonNegative;
 use crate::engine::simulation::Simulation;
 use crate::interface::Interface;
@@ -50,8 +50,7 @@ pub(super) fn of(scene: &Arc<Scene>, present: &Simulation) -> Vec<String> {
 /// A given step that is much shorter than an automatic one.
 fn short_step(scene: &Scene, present: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
-    let (safety, stable) = (crate::scene::Run::SAFETY, present.stable_step());
-    let part = step / (safety * stable);
+    let (stable, part) = (present.stable_step(), step / economy::default_step(scene)?);
     (stable.is_finite() && part < SHORT).then(|| {
         format!(
             "[run] step = {step:e}: {:.3} of the stable one; \"auto\" makes {:.2} times as many steps at the start",

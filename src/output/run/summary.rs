@@ -53,7 +53,7 @@ pub struct TimeSteps {
     /// A stable one, as last computed \[s\]: the largest unless the given step is far below it. None where nothing is stiff.
     pub stable: Option<f64>,
     /// What scheme and time step were chosen for.
-    pub accuracy: &'static str,
+    pub accuracy: String,
     /// How springs and dashpots of contacts went on in time.
     pub scheme: &'static str,
     /// Whether a given step above the stable one was let run.
@@ -174,7 +174,7 @@ impl Summary {
             time_step: TimeSteps {
                 current: state.clock.step,
                 stable: Some(state.clock.stable).filter(|stable| stable.is_finite()),
-                accuracy: order.scene.run.accuracy.name(),
+                accuracy: order.scene.run.accuracy.to_string(),
                 scheme: order.scene.run.scheme.name(),
                 allow_unstable: order.scene.run.allow_unstable,
             },

@@ -6,7 +6,7 @@ mod tables;
 
 use crate::base::document::{self, Document, Faults, Mistake, SceneError, SceneErrors, Setting};
 use crate::base::memory;
-use crate::scene::file::parameters::{CENTRAL_DERIVATIVES, THREADS, TIME_STEP};
+use crate::scene::file::parameters::{CENTRAL_DERIVATIVES, SAFETY, THREADS, TIME_STEP};
 use crate::scene::packing::PackingProgress;
 use crate::scene::{Models, Scene, Source};
 use check::raw_tables;
@@ -102,6 +102,8 @@ impl Models {
                 }
                 TIME_STEP if value == 0.0 => "run.step=auto".to_owned(),
                 TIME_STEP => format!("run.step={value:?}"),
+                // What no key says is so already.
+                SAFETY if value == 0.0 && !Document::parse(&source.name, &source.text)?.has(SAFETY) => continue,
                 CENTRAL_DERIVATIVES => format!("run.central_derivatives={}", value != 0.0),
                 _ => format!("{name}={value:?}"),
             };

@@ -20,7 +20,8 @@ use crate::base::threads::{CHUNK, Context};
 use crate::engine::boundaries::RigidBody;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, Entries};
-use crate::engine::contacts::coefficients::CoefficientTable;
+use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};
+use crate::engine::contacts::encounters::{self, Encounters};
 use crate::engine::run_error::{Cause, RunError};
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
@@ -55,6 +56,8 @@ pub(super) struct AtSurface {
     touched: Touched,
     /// Whether what came through it is taken away.
     removes: bool,
+    /// Index of the law.
+    law_index: u32,
     /// Index of its material.
     material: u32,
     /// Point about which the moment is taken, at time 0 \[m\].
@@ -134,6 +137,7 @@ impl AtSurface {
         };
         Self {
             index,
+            law_index: law as u32,
             name: boundary.name.clone(),
             touched,
             removes: boundary.outside == Outside::Remove,
@@ -356,6 +360,26 @@ impl Pass for SurfacePass {
         for surface in &self.surfaces {
             let found = surface.table.impact(&surface.law.law, [first, surface.material], meeting);
             found.into_iter().for_each(|parts| tell(Some(surface.list(state).boundary), parts));
+        }
+    }
+
+    fn rows(&self, scene: &Scene, tell: &mut dyn FnMut(MaterialRow)) {
+        let present = scene.present();
+        for surface in &self.surfaces {
+            for material in (0..present.len()).filter(|&material| present[material]) {
+                let materials = [material as u32, surface.material];
+                let row = surface.table.material_row(surface.law_index, &surface.law.law, materials);
+                row.into_iter().for_each(&mut *tell);
+            }
+        }
+    }
+
+    fn encounters(&self, state: &State, found: &mut Encounters) {
+        for surface in &self.surfaces {
+            match surface.plane_list(state) {
+                Some(list) => encounters::of_list(&list, state, found),
+                None => surface.encounters_at_features(state, found),
+            }
         }
     }
 

@@ -70,7 +70,7 @@ fn listed_at_plane() -> Mistake {
 /// Refuses `"auto"` where a bond needs to know the step, and a step above its relaxation times.
 fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
     match (step, keys.needs_given_step(), keys.shortest_relaxation()) {
-        (Step::Automatic { .. }, Some(reason), _) => {
+        (Step::Automatic { .. } | Step::Following, Some(reason), _) => {
             let found = format!("\"auto\" beside [{table}]: {reason}");
             faults.add("run", "step", Mistake::Unexpected { found, expected: "a step in seconds".to_owned() });
         }

@@ -25,7 +25,7 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{Accuracy, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
 use finding::Finding;
 use raw_tables::RawTables;
 
@@ -142,6 +142,22 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
             Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
         );
     }
+    let unused = match (table.step, table.safety) {
+        (Some(StepKey::Given(_)), _) => Some("a given step"),
+        (_, Some(_)) => Some("a fraction of the stable step, safety,"),
+        _ => None,
+    };
+    if let (Some(unused), Accuracy::Within(_)) = (unused, accuracy) {
+        let expected = "a word, which chooses the scheme, or one of the two keys alone";
+        faults.add(
+            "run",
+            "accuracy",
+            Mistake::InvalidCombination {
+                what: format!("{unused} follows no accuracy"),
+                expected: expected.to_owned(),
+            },
+        );
+    }
     if let (None | Some(StepKey::Automatic), Some(true)) = (table.step, table.allow_unstable) {
         let (what, expected) =
             ("an automatic step is never above the stable one", "give a step, or leave allow_unstable out");
@@ -164,7 +180,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         step: match table.step {
             Some(StepKey::Given(step)) => Step::Given(step),
             Some(StepKey::Automatic) | None => {
-                Step::Automatic { safety: table.safety.map_or(accuracy.safety(), crate::base::quantity::Safety::get) }
+                table.safety.map_or(Step::Following, |safety| Step::Automatic { safety: safety.get() })
             }
         },
         accuracy,

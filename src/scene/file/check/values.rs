@@ -146,6 +146,11 @@ fn run(draft: &SceneDraft, at: &mut Table) {
         Step::Given(step) => at.positive("step", step),
         Step::Automatic { safety } if safety > 0.0 && safety < 1.0 => {}
         Step::Automatic { safety } => at.wrong("safety", format!("{safety:?}"), "a number above 0 and below 1"),
+        Step::Following => {}
+    }
+    let error = run.accuracy.error();
+    if !(error > 0.0 && error < 1.0) {
+        at.wrong("accuracy", format!("{error:?}"), "a number above 0 and below 1");
     }
     for (key, value) in [("end", run.end), ("skin", run.skin), ("settle_tolerance", Some(run.settle_tolerance))] {
         at.positive(key, value.unwrap_or(1.0));

@@ -4,8 +4,8 @@ mod rows;
 
 use crate::base::document::Document;
 use crate::base::quantity::MaterialIndex;
-use crate::scene::{Parameter, Run, SceneDraft, Step};
-use rows::{Always, ByLaw, COUNT, NON_NEGATIVE, POSITIVE, ROWS, SAFETY, SWITCH, is_of};
+use crate::scene::{Parameter, SceneDraft, Step};
+use rows::{Always, ByLaw, COUNT, NON_NEGATIVE, PART, PART_OR_NONE, POSITIVE, ROWS, SWITCH, is_of};
 
 /// The parameters of a scene that was read from this text.
 pub(crate) fn of_scene(scene: &SceneDraft, document: &Document) -> Vec<Parameter> {
@@ -24,8 +24,9 @@ pub(crate) fn of_scene(scene: &SceneDraft, document: &Document) -> Vec<Parameter
 /// Settings of the run that every scene has.
 fn settings(scene: &SceneDraft) -> Vec<Parameter> {
     let (step, safety) = match scene.run.step {
-        Step::Given(step) => (step, Run::SAFETY),
+        Step::Given(step) => (step, 0.0),
         Step::Automatic { safety } => (0.0, safety),
+        Step::Following => (0.0, 0.0),
     };
     let threads = scene.run.threads.unwrap_or(0) as f64;
     let number = |name: &str, value, unit, range, about: &str| {
@@ -35,11 +36,18 @@ fn settings(scene: &SceneDraft) -> Vec<Parameter> {
     vec![
         number(TIME_STEP, step, Some("s"), NON_NEGATIVE, "time step; 0: automatic"),
         number(
-            "run.safety",
+            SAFETY,
             safety,
             Some("1"),
-            SAFETY,
-            "fraction of the stable step that an automatic time step takes",
+            PART_OR_NONE,
+            "fraction of the stable step that an automatic time step takes; 0: as long as run.accuracy allows",
+        ),
+        number(
+            "run.accuracy",
+            scene.run.accuracy.error(),
+            Some("1"),
+            PART,
+            "largest error of the coefficient of restitution that an automatic time step allows",
         ),
         number(THREADS, threads, None, COUNT, "threads; 0: as many as the machine offers"),
         number(
@@ -61,6 +69,8 @@ fn settings(scene: &SceneDraft) -> Vec<Parameter> {
 
 /// The time step, 0 where it is automatic.
 pub(crate) const TIME_STEP: &str = "run.time_step";
+/// The fraction of the stable step, 0 where the time step follows the accuracy.
+pub(crate) const SAFETY: &str = "run.safety";
 /// The number of threads, 0 where the machine decides.
 pub(crate) const THREADS: &str = "run.threads";
 /// Whether derivatives are differences of both sides, 0 or 1.
@@ -129,7 +139,8 @@ mod tests {
     fn a_number_out_of_range_is_refused_in_the_words_of_the_scene() {
         let refused = |range: &Range, value: f64| range.check(value).unwrap_err();
         assert_eq!(refused(&NON_NEGATIVE, -0.1), "expected a number of 0 or above, found -0.1");
-        assert_eq!(refused(&SAFETY, 1.0), "expected a number above 0 and below 1, found 1.0");
+        assert_eq!(refused(&PART, 1.0), "expected a number above 0 and below 1, found 1.0");
+        assert_eq!(refused(&PART_OR_NONE, 1.0), "expected a number from 0 to below 1, found 1.0");
         for row in ROWS {
             let Range { minimum, maximum, .. } = row.range;
             for bound in minimum.into_iter().chain(maximum) {

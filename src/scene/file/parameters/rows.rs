@@ -1,6 +1,8 @@
 //! The kinds of parameters: keys, unit, range. A new kind is one row.
 
-use crate::base::quantity::{AtLeastOne, Fraction, NonNegative, PoissonsRatio, Positive, Restitution, Safety};
+use crate::base::quantity::{
+    AtLeastOne, BelowOne, Fraction, NonNegative, PoissonsRatio, Positive, Restitution, Safety,
+};
 use crate::laws::contact::normal::sticky::{self, DampingKind};
 use crate::scene::{ContactLaw, Range, range_of as of};
 
@@ -23,7 +25,9 @@ const FRACTION: Range = of::<Fraction>(Some(0.0), Some(1.0));
 /// From 0 to ½.
 const POISSONS_RATIO: Range = of::<PoissonsRatio>(Some(0.0), Some(0.5));
 /// Above 0 and below 1.
-pub(super) const SAFETY: Range = of::<Safety>(ABOVE_ZERO, Some(1.0 - f64::EPSILON / 2.0));
+pub(super) const PART: Range = of::<Safety>(ABOVE_ZERO, Some(1.0 - f64::EPSILON / 2.0));
+/// From 0 to below 1.
+pub(super) const PART_OR_NONE: Range = of::<BelowOne>(Some(0.0), Some(1.0 - f64::EPSILON / 2.0));
 
 /// The unit of a key, which may depend on the law that governs two materials.
 #[derive(Clone, Copy)]

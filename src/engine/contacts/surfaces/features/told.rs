@@ -5,6 +5,7 @@ use super::{constant, parts};
 use crate::base::number::Vector;
 use crate::engine::contacts::ahead::{Link, SearchLimits};
 use crate::engine::contacts::batches::ContactGeometry;
+use crate::engine::contacts::encounters::Encounters;
 use crate::engine::contacts::records::{self, ContactRecord, Motion};
 use crate::engine::contacts::surfaces::AtSurface;
 use crate::engine::state::{Row, State};
@@ -105,6 +106,35 @@ impl AtSurface {
             let (ids, boundary) = ((particles.id[slot as usize], None), Some(list.boundary));
             tell(ContactRecord::new(ids, boundary, point, contact, &Reaction { force, ..reaction }, sliding));
         });
+    }
+
+    /// Adds the energies of contacts with features at work and to come. A particle touches the whole surface where it is deepest.
+    pub(in crate::engine::contacts::surfaces) fn encounters_at_features(&self, state: &State, found: &mut Encounters) {
+        let boundary = self.list(state).boundary as usize;
+        let standing = (&state.boundaries[boundary], state.nodes_of(boundary));
+        MovingSurface::with(self, standing, |at| self.encounters_at(&at, state, found));
+    }
+
+    /// The same where it stands.
+    fn encounters_at(&self, at: &MovingSurface, state: &State, found: &mut Encounters) {
+        let (list, law, mut feet) = (self.list(state), &self.law.law, Feet::default());
+        for (place, &slot) in list.near.particle.iter().enumerate() {
+            let touches = || list.particle.binary_search(&slot).is_ok();
+            let Some(meeting) = found.meeting(state, (slot, None), touches) else { continue };
+            let position = state.particles.position[slot as usize];
+            let (velocity, spin) = Motion::Present.of(state, slot);
+            feet.clear();
+            let reach = position[3] + state.neighbours.skin;
+            at.features.feet(at.frame.inside(Vector::from(position)), reach, parts(list, place), &mut feet);
+            let nearest = feet.list.iter().filter(|foot| foot.weight > 0.0);
+            let Some(foot) = nearest.reduce(|near, next| if next.distance < near.distance { next } else { near })
+            else {
+                continue;
+            };
+            let (row, constant) = (self.row(state, slot), constant(list, place));
+            let contact = SphereOnSurface { at, body: [position, velocity, spin], row, constant }.meet(foot).contact;
+            found.add(meeting, (law, row, &contact), state, (slot, None, Some(list.boundary)));
+        }
     }
 
     /// Elastic energy of the contacts with features \[J\].

@@ -1,0 +1,204 @@
+//! Which impacts are those of two bodies alone, and how much of the energy of all contacts they have: what decides how long a time
+//! step may be.
+//!
+//! The neighbour lists hold every pair that can touch until they are made anew. So a look at them foresees every impact until then:
+//! a pair of bodies that are in no contact counts with the energy with which it will meet.
+
+use super::listed::{Bodies, ContactEntries};
+use super::records::Motion;
+use crate::base::number::Vector;
+use crate::engine::boundaries::RigidBody;
+use crate::engine::integration::Fields;
+use crate::engine::state::contacts::{TOUCHING, is_suppressed};
+use crate::engine::state::{State, WallContacts};
+use crate::laws::contact::{Contact, Law, MOST_HISTORY};
+
+/// How two bodies meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Meetings {
+    /// They touch, and nothing else.
+    Impact,
+    /// They may touch, and touch nothing now.
+    ComingImpact,
+    /// They touch, and others.
+    Packed,
+    /// They may touch, and one of them touches others.
+    ComingPacked,
+}
+
+/// Energies of contacts \[J\].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Energies {
+    /// Of impacts of two bodies alone.
+    pub impacts: f64,
+    /// Of bodies that come upon others in contact.
+    pub coming: f64,
+    /// Of contacts inside packings.
+    pub packed: f64,
+}
+
+/// What is looked at, and what was found.
+pub(crate) struct Encounters<'a> {
+    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them boundaries.
+    contacts: Vec<u8>,
+    /// Gravity and applied forces.
+    fields: &'a Fields,
+    /// Groups and surfaces that move.
+    bodies: &'a [Option<RigidBody>],
+    /// Largest speed that each boundary has or is about to get \[m/s\].
+    speeds: Vec<f64>,
+    /// Whether contacts inside packings are looked at.
+    whole: bool,
+    /// Time in which contacts to come count \[s\].
+    time: f64,
+    /// What was found.
+    pub energies: Energies,
+}
+
+/// The place of the body that moves a particle (slot).
+fn mover(state: &State, slot: u32) -> usize {
+    match state.particles.owner[slot as usize] {
+        0 => slot as usize,
+        owner => state.particles.len() + owner as usize - 1,
+    }
+}
+
+/// Whether bodies with these bits touch, and no bond takes the place of the contact.
+fn touches(flags: u8) -> bool {
+    flags & TOUCHING != 0 && !is_suppressed(flags)
+}
+
+impl<'a> Encounters<'a> {
+    /// Counts the contacts of each body.
+    pub(crate) fn of(
+        state: &State,
+        (fields, bodies): (&'a Fields, &'a [Option<RigidBody>]),
+        (speeds, mut contacts): (Vec<f64>, Vec<u8>),
+        (whole, time): (bool, f64),
+    ) -> Self {
+        contacts.clear();
+        contacts.resize(state.particles.len() + state.boundaries.len(), 0);
+        let mut count = |slot: u32| {
+            let place = &mut contacts[mover(state, slot)];
+            *place = (*place + 1).min(2);
+        };
+        for list in &state.contacts {
+            for (entry, _) in list.flags.iter().enumerate().filter(|(_, flags)| touches(**flags)) {
+                count(list.first[entry]);
+                count(list.second[entry]);
+            }
+        }
+        for WallContacts { particle, flags, .. } in &state.walls {
+            // A particle may have several feet on one surface, which follow each other.
+            let mut last = None;
+            for (slot, _) in particle.iter().zip(flags).filter(|(_, flags)| touches(**flags)) {
+                if last != Some(slot) {
+                    count(*slot);
+                    last = Some(slot);
+                }
+            }
+        }
+        for list in &state.bonds {
+            // Whatever else it touches, a bonded body is not alone.
+            list.first.iter().chain(&list.second).for_each(|&slot| (0..2).for_each(|_| count(slot)));
+        }
+        Self { contacts, fields, bodies, speeds, whole, time, energies: Energies::default() }
+    }
+
+    /// The room for the numbers of contacts, for the next look.
+    pub(crate) fn into_room(self) -> Vec<u8> {
+        self.contacts
+    }
+
+    /// How a particle (slot) meets another one, or a surface; none where that does not matter.
+    #[inline]
+    pub(crate) fn meeting(
+        &self,
+        state: &State,
+        (first, second): (u32, Option<u32>),
+        touches: impl FnOnce() -> bool,
+    ) -> Option<Meetings> {
+        let own = self.contacts[mover(state, first)];
+        let other = second.map_or(own, |second| self.contacts[mover(state, second)]);
+        let [least, most] = [own.min(other), own.max(other)];
+        match (least, most) {
+            (0, 0) => Some(Meetings::ComingImpact),
+            (0, _) => Some(Meetings::ComingPacked),
+            (1, 1) => touches().then_some(Meetings::Impact),
+            _ => (self.whole && touches()).then_some(Meetings::Packed),
+        }
+    }
+
+    /// Adds what a contact holds, or will hold.
+    pub(crate) fn add(
+        &mut self,
+        meeting: Meetings,
+        (law, row, contact): (&Law, &[f64], &Contact),
+        state: &State,
+        (first, second, boundary): Bodies,
+    ) {
+        let (mass, velocity, overlap) = (contact.mass, contact.normal_velocity, contact.overlap);
+        // Attraction holds energy below 0.
+        let elastic = || law.normal_energy(row, contact, 0.0, &[[0.0; 4]; MOST_HISTORY]).max(0.0);
+        let gained = |boundary: usize, now: f64| (self.speeds.get(boundary).map_or(0.0, |speed| speed - now)).max(0.0);
+        match meeting {
+            Meetings::Packed => self.energies.packed += 0.5 * mass * velocity * velocity + elastic(),
+            Meetings::Impact => {
+                // What presses the bodies on each other holds back so much of it: at rest, all.
+                let held = mass * self.closing(state, contact, first, second).max(0.0) * overlap;
+                let energy = 0.5 * mass * velocity * velocity + elastic();
+                self.energies.impacts += (energy - held).max(0.0);
+            }
+            Meetings::ComingImpact | Meetings::ComingPacked => {
+                let of_group = |slot: u32| {
+                    let [x, y, z, _] = state.particles.velocity[slot as usize];
+                    let group = state.particles.owner[slot as usize].checked_sub(1)?;
+                    Some(gained(group as usize, Vector::new(x, y, z).length()))
+                };
+                let of_surface = |boundary: u32| {
+                    let moved = &state.boundaries[boundary as usize];
+                    gained(boundary as usize, Vector::from(moved.velocity).length())
+                };
+                let extra = of_group(first).unwrap_or(0.0)
+                    + second.and_then(of_group).unwrap_or(0.0)
+                    + boundary.map_or(0.0, of_surface);
+                let acceleration = self.closing(state, contact, first, second);
+                let closing = extra - velocity;
+                let reached = (closing + 0.5 * acceleration.max(0.0) * self.time) * self.time;
+                if (closing <= 0.0 && acceleration <= 0.0) || reached < -overlap {
+                    return;
+                }
+                let energy = mass * (0.5 * closing * closing - acceleration * overlap);
+                let sum = if meeting == Meetings::ComingImpact {
+                    &mut self.energies.impacts
+                } else {
+                    &mut self.energies.coming
+                };
+                *sum += energy.max(0.0);
+            }
+        }
+    }
+
+    /// How gravity and applied forces accelerate two bodies towards each other along their normal \[m/s²\].
+    fn closing(&self, state: &State, contact: &Contact, first: u32, second: Option<u32>) -> f64 {
+        let of = |slot: u32| {
+            let (mass, id) = (state.particles.velocity[slot as usize][3], state.particles.id[slot as usize]);
+            let group = state.particles.owner[slot as usize].checked_sub(1);
+            let moves = group.is_none_or(|group| self.bodies[group as usize].as_ref().is_some_and(RigidBody::is_free));
+            if moves { Vector::from(self.fields.loads(mass, id)) * (1.0 / mass) } else { Vector::zero() }
+        };
+        let relative = of(first) - second.map_or(Vector::zero(), of);
+        -relative.dot(contact.normal)
+    }
+}
+
+/// Adds the contacts of a list.
+pub(crate) fn of_list(list: &impl ContactEntries, state: &State, found: &mut Encounters) {
+    let (law, kept) = (list.law(), list.kept(state));
+    for (entry, &flags) in kept.flags.iter().enumerate() {
+        let bodies @ (first, second, _) = list.bodies(state, entry);
+        let Some(meeting) = found.meeting(state, (first, second), || touches(flags)) else { continue };
+        let Some(met) = list.meet(state, entry, f64::INFINITY, Motion::Present) else { continue };
+        found.add(meeting, (law, met.row, &met.contact), state, bodies);
+    }
+}
