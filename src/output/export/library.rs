@@ -290,14 +290,15 @@ fn beside(name: &str, program: Option<PathBuf>) -> Vec<PathBuf> {
 mod tests {
     use super::*;
     use crate::output::export::sample_library::{self as sample, Sample};
+    use crate::output::scratch::Scratch;
 
     /// The name by which the library at a path of this test is refused, or the folders that it gets.
     fn verdict(name: &str, bytes: &[u8]) -> Result<String, String> {
-        let path = env::temp_dir().join(format!("cograin-library-{}-{name}", std::process::id()));
+        let folder = Scratch::new();
+        let path = folder.join(name);
         fs::write(&path, bytes).unwrap();
-        let read = Library::read(&path);
-        fs::remove_file(&path).unwrap();
         let folders = |platforms: BTreeSet<Platform>| platforms.into_iter().map(|it| it.folder).collect::<Vec<_>>();
+        let read = Library::read(&path);
         read.map(|(platforms, _)| folders(platforms).join(" ")).map_err(|error| error.to_string())
     }
 
@@ -370,14 +371,13 @@ mod tests {
 
     #[test]
     fn two_libraries_for_one_platform_are_refused_with_both_names() {
-        let folder = env::temp_dir();
-        let paths = ["one", "two"].map(|name| folder.join(format!("cograin-twice-{}-{name}", std::process::id())));
+        let folder = Scratch::new();
+        let paths = ["one", "two"].map(|name| folder.join(name));
         for path in &paths {
             fs::write(path, Sample::LINUX.bytes()).unwrap();
         }
         let message = Library::read_all(&paths).unwrap_err().to_string();
         for path in &paths {
-            fs::remove_file(path).unwrap();
             assert!(message.contains(&path.display().to_string()), "{message}");
         }
         assert!(message.starts_with("expected one library for linux64, found "), "{message}");

@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::interface::Causality;
+use crate::output::scratch::Scratch;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Read;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A group, a driven plane and a plane at rest.
 const SCENE: &str = r#"
@@ -53,17 +53,13 @@ fn source() -> Source {
     Source { name: "scene.toml".to_owned(), text: SCENE.to_owned(), files }
 }
 
-/// A new folder that is removed when it is dropped.
-struct Folder(PathBuf);
+/// A new folder.
+struct Folder(Scratch);
 
 impl Folder {
     /// Makes one.
     fn new() -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let name = format!("cograin-export-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let path = std::env::temp_dir().join(name);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
+        Self(Scratch::new())
     }
 
     /// Writes something that passes for the library.
@@ -93,12 +89,6 @@ impl Folder {
             entries.insert(entry.name().unwrap().into_owned(), bytes);
         }
         entries
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 
@@ -420,7 +410,7 @@ fn nothing_is_left_where_a_unit_cannot_be_written() {
     assert!(message.contains("missing/unit.fmu"), "{message}");
     fs::create_dir(folder.0.join("taken.fmu")).unwrap();
     assert!(export(&source, &scene, None, &library, &folder.0.join("taken.fmu")).is_err());
-    let left: Vec<_> = fs::read_dir(&folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    let left: Vec<_> = fs::read_dir(&*folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 2, "{left:?}: only the library and the folder in the way are right");
 }
 
