@@ -3,6 +3,7 @@
 
 #![allow(clippy::print_stderr, reason = "the unit has silenced panics")]
 
+use crate::kept_in;
 use crate::state::{forge, source};
 use cograin::export::{identity, resources};
 use cograin::interface::{Causality, Interface, Type};
@@ -13,7 +14,6 @@ use cograin_unit::*;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_void};
 use std::fs;
-use std::path::PathBuf;
 use std::ptr::{self, null_mut};
 use std::sync::LazyLock;
 
@@ -27,18 +27,25 @@ struct Unit {
     interface: Interface,
 }
 
-/// The unit, unpacked once for a process.
+/// The unit, unpacked once: as a whole, since others may be at it.
 static UNIT: LazyLock<Unit> = LazyLock::new(|| {
     let source = source();
-    let folder: PathBuf = std::env::temp_dir().join(format!("cograin-fuzz-{}", std::process::id()));
-    for entry in resources(&source, None) {
-        let path = folder.join(&entry.path);
-        fs::create_dir_all(path.parent().expect("a file stands in a folder")).expect("a folder is made");
-        fs::write(path, entry.bytes()).expect("a file is written");
+    let identity = identity(&source, None);
+    let folder = kept_in("units").join(identity.trim_matches(['{', '}']));
+    if !folder.exists() {
+        let making = folder.with_extension(std::process::id().to_string());
+        for entry in resources(&source, None) {
+            let path = making.join(&entry.path);
+            fs::create_dir_all(path.parent().expect("a file stands in a folder")).expect("a folder is made");
+            fs::write(path, entry.bytes()).expect("a file is written");
+        }
+        if fs::rename(&making, &folder).is_err() {
+            fs::remove_dir_all(&making).expect("another one was quicker");
+        }
     }
     let text = |text: String| CString::new(text).expect("no zeros");
     Unit {
-        identity: text(identity(&source, None)),
+        identity: text(identity),
         location: text(format!("file://{}", folder.display())),
         interface: Interface::of(&Scene::from_source(&source).expect("the scene is right")),
     }

@@ -7,7 +7,7 @@
     reason = "a unit in this process has silenced panics; the test's output tells"
 )]
 
-use cograin_fuzz::{Mutator, TARGETS, Target};
+use cograin_fuzz::{Mutator, TARGETS, Target, kept_in};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::abort;
 use std::sync::Mutex;
@@ -22,7 +22,7 @@ const LONGEST: Duration = Duration::from_secs(120);
 
 /// Keeps an input, and says where.
 fn keep(target: &Target, name: &str, bytes: &[u8]) -> String {
-    let file = std::env::temp_dir().join(format!("cograin_{}_{}", target.name, name.replace([' ', '/'], "_")));
+    let file = kept_in("found").join(format!("{}_{}", target.name, name.replace([' ', '/'], "_")));
     std::fs::write(&file, bytes).unwrap();
     file.display().to_string()
 }

@@ -25,7 +25,8 @@ next: cograin check drop/scene.toml
 >>> bool(record["table.displacement.z"].min() < -1e-4)  # the marble has hit it
 True
 
-`cograin.results` reads what runs leave, `cograin.plot` draws it, `cograin.study` makes many runs.
+`cograin.results` reads what runs leave, `cograin.plot` draws it, `cograin.study` makes many runs, `cograin.precice`
+joins units to preCICE.
 """
 
 from cograin.coupling import Coupling, CouplingStopped, StepControl, couple

@@ -59,6 +59,10 @@ class Record:
     def __len__(self) -> int:
         return len(self.rows)
 
+    def __repr__(self) -> str:
+        last = f" to {self.rows[-1].time:g} s" if self.rows else ""
+        return f"<Record of {len(self)} steps{last}: {', '.join(self.names[len(COLUMNS) :][:8])}>"
+
     def memory(self) -> Any:
         """All rows: their numbers, and why some did not converge."""
         numbers = np.array([row.values for row in self.rows]).reshape(-1, len(self.names))

@@ -27,6 +27,7 @@ FIRST = {
     "time": "s",
     "time_step": "s",
     "length": "s",
+    "residual": "m",
     "energy": "J",
     "interface_energy": "J",
     "exchanged_work": "J",
@@ -34,6 +35,8 @@ FIRST = {
 #: By the last of these words behind the name of a boundary, a region and so on.
 UNITS = {
     "displacement": "m",
+    "position": "m",
+    "overlap": "m",
     "velocity": "m/s",
     "rotation": "rad",
     "angular_velocity": "rad/s",
@@ -42,10 +45,12 @@ UNITS = {
     "target_force": "N",
     "applied_force": "N",
     "servo_error": "N",
+    "normal_force": "N",
     "force_slope": "N/s",
     "moment": "N.m",
     "mean_moment": "N.m",
     "applied_moment": "N.m",
+    "torque": "N.m",
     "work": "J",
     "elastic_energy": "J",
     "dissipated_energy": "J",
@@ -89,6 +94,10 @@ class Table(Mapping[str, Vector]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def __repr__(self) -> str:
+        names = [name if unit_of(name) == "1" else f"{name} [{unit_of(name)}]" for name in self]
+        return f"<Table of {self.rows} rows: {_listed(names)}>"
+
     @property
     def rows(self) -> int:
         """Number of its rows."""
@@ -110,6 +119,11 @@ class Table(Mapping[str, Vector]):
         variables = {name: (time, values, {"units": unit_of(name)}) for name, values in self.items() if name != time}
         at = self._columns.get("time", np.arange(self.rows, dtype=float))
         return xarray.Dataset(variables, coords={time: (time, at, {"units": unit_of(time)})})
+
+
+def _listed(names: list[str], most: int = 8) -> str:
+    """Names in a row, the first of them where there are many."""
+    return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
 def read_table(path: str | Path) -> Table:
@@ -134,7 +148,7 @@ def read_table(path: str | Path) -> Table:
     return Table({name: values[:, place] for place, name in enumerate(names)})
 
 
-@dataclass
+@dataclass(repr=False)
 class Cloud:
     """The points, lines or facets of one file of a frame."""
 
@@ -152,6 +166,10 @@ class Cloud:
         if name in self.cell_fields:
             return self.cell_fields[name]
         raise KeyError(f"expected one of {', '.join([*self.fields, *self.cell_fields])}, found {name}")
+
+    def __repr__(self) -> str:
+        names = _listed([*self.fields, *self.cell_fields], most=20)
+        return f"<Cloud of {len(self)} points, {len(self.cells)} cells: {names}>"
 
 
 _TYPES = {"Float64": "f8", "Int64": "i8", "UInt64": "u8", "UInt8": "u1", "Float32": "f4", "Int32": "i4"}
@@ -226,6 +244,9 @@ class Run:
         self.folder = Path(folder)
         if not (self.folder / "history.csv").is_file():
             raise ResultError(f"{self.folder}: expected the results of a run, found no history.csv")
+
+    def __repr__(self) -> str:
+        return f"<Run in {self.folder}: .history, .summary, .frames, .breakage>"
 
     @property
     def history(self) -> Table:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cograin.results import ResultError, Run, read_frame, read_table
+from cograin.results import ResultError, Run, read_frame, read_table, unit_of
 
 SCENE = """
 gravity = [0.0, 0.0, -9.81]
@@ -57,12 +57,32 @@ def folder(program, tmp_path_factory):
     return folder / "out"
 
 
+def test_names_of_every_kind_tell_their_units():
+    for name, unit in {
+        "lid.force.z": "N",
+        "grain.position.x": "m",
+        "grain.torque.y": "N.m",
+        "pair.normal_force": "N",
+        "pair.overlap": "m",
+        "overlap.max": "1",
+        "energy.lost.sliding": "J",
+    }.items():
+        assert unit_of(name) == unit, name
+
+
 def test_the_history_is_a_table_by_names(folder):
     history = Run(folder).history
     assert history.rows == 21
     assert history["time"][-1] == 0.02
     with pytest.raises(KeyError, match=r"the nearest is floor\.force\.z"):
         history["floor.force.zz"]
+
+
+def test_what_is_shown_at_a_prompt_fits_there(folder):
+    run = Run(folder)
+    assert repr(run) == f"<Run in {folder}: .history, .summary, .frames, .breakage>"
+    assert repr(run.history).startswith("<Table of 21 rows: time [s], ") and repr(run.history).endswith(" more>")
+    assert repr(run.frames[0].particles).startswith("<Cloud of 3 points, 3 cells: radius, id, ")
 
 
 def test_frames_are_the_arrays_that_meshio_reads(folder):

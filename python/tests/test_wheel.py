@@ -46,6 +46,16 @@ def test_it_names_every_file_and_every_licence(wheel):
         assert any(wanted in name for name in names), wanted
 
 
+def test_pip_hears_before_the_build_what_the_wheel_says(wheel, tmp_path):
+    ask = "import sys, backend; print(backend.prepare_metadata_for_build_wheel(sys.argv[1]))"
+    path = {**os.environ, "PYTHONPATH": str(ROOT / "tools/build")}
+    asked = [sys.executable, "-c", ask, tmp_path]
+    name = subprocess.run(asked, check=True, capture_output=True, text=True, env=path).stdout.strip()
+    with zipfile.ZipFile(wheel) as archive:
+        for file in ("METADATA", "WHEEL"):
+            assert (tmp_path / name / file).read_bytes() == archive.read(f"{name}/{file}"), file
+
+
 def test_the_command_makes_units_without_anything_else(environment, tmp_path):
     def cograin(*words):
         bare = {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "COGRAIN", "PATH"))}

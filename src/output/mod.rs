@@ -4,3 +4,5 @@ pub mod export;
 pub mod report;
 pub mod results;
 pub mod run;
+#[cfg(test)]
+mod scratch;

@@ -43,6 +43,11 @@ impl Boundary {
         }
     }
 
+    /// Whether the outside says where it is, or where its nodes are.
+    pub(crate) fn is_led(&self) -> bool {
+        matches!(self.nodes, NodeMotion::Driven) || self.axes.iter().any(AxisMotion::is_driven)
+    }
+
     /// Whether it can turn.
     pub(crate) fn turns(&self) -> bool {
         self.axes[3..].iter().any(|motion| !motion.is_fixed())

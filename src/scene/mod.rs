@@ -154,8 +154,8 @@ pub struct Run {
     pub skin: Option<f64>,
     /// Unbalanced force, over the mean contact force, below which `cograin settle` is done.
     pub settle_tolerance: f64,
-    /// Global damping coefficient (Cundall) that `cograin settle` adds to particles which have none.
-    pub settle_damping: f64,
+    /// Global damping coefficient (Cundall) that `cograin settle` adds to particles which have none; `None`: what suits the scene.
+    pub settle_damping: Option<f64>,
     /// Largest overlap that is accepted at the start, over the smaller radius.
     pub max_overlap: f64,
     /// The plane in which all particles stay, if the scene says so: a run in which one leaves it stops.
@@ -178,7 +178,7 @@ impl Default for Run {
             seed: 1,
             skin: None,
             settle_tolerance: 1e-4,
-            settle_damping: 0.7,
+            settle_damping: None,
             max_overlap: 0.05,
             plane: None,
             central_derivatives: false,

@@ -8,7 +8,8 @@ import pytest
 from cograin import Unit
 
 ROOT = Path(__file__).resolve().parents[2]
-MODELS = sorted(scene.parent.name for scene in ROOT.glob("models/*/scene.toml"))
+# Scenes of 25,000 grains and more are tested in small (test_bulk.py).
+MODELS = sorted(scene.parent.name for scene in ROOT.glob("models/*/scene.toml") if "bulk_" not in scene.parent.name)
 
 
 def pytest_addoption(parser):

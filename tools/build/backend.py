@@ -24,6 +24,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 NAME = f"{PROJECT['name']}-{PROJECT['version']}"
+INFORMATION = f"{NAME}.dist-info"
 LICENSES = ["LICENSE-MIT", "LICENSE-APACHE", "fmu/library/third_party.txt"]
 # The same bytes whenever it is made: the earliest time that a zip file knows.
 TIME = (1980, 1, 1, 0, 0, 0)
@@ -37,19 +38,33 @@ def get_requires_for_build_wheel(config_settings=None):
 get_requires_for_build_sdist = get_requires_for_build_editable = get_requires_for_build_wheel
 
 
+def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    """What the wheel will say of itself: pip asks for it first, and need not wait for cargo."""
+    for path, data in information(tag(config_settings or {})).items():
+        place = Path(metadata_directory) / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_bytes(data)
+    return INFORMATION
+
+
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """The whole wheel."""
     settings = config_settings or {}
     named = settings.get("program") or os.environ.get("COGRAIN_PROGRAM")
     program, library = built_before(Path(named)) if named else built_now()
-    platform = settings.get("platform") or sysconfig.get_platform().replace("-", "_").replace(".", "_")
     package = [path for path in sorted((ROOT / "python/cograin").iterdir()) if path.is_file()]
     files = {f"cograin/{path.name}": path.read_bytes() for path in package}
     programs = {
         f"{NAME}.data/scripts/{program.name}": program.read_bytes(),
         f"{NAME}.data/data/lib/cograin/{library.name}": library.read_bytes(),
     }
-    return write(Path(wheel_directory), f"py3-none-{platform}", files, programs)
+    return write(Path(wheel_directory), tag(settings), files, programs)
+
+
+def tag(settings):
+    """Which Python and which machines the wheel is for."""
+    platform = settings.get("platform") or sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    return f"py3-none-{platform}"
 
 
 def build_editable(wheel_directory, config_settings=None, metadata_directory=None):
@@ -79,8 +94,10 @@ def built_now():
         subprocess.run(command, cwd=ROOT, check=True)
     except FileNotFoundError:
         raise SystemExit(
-            "cargo: not found; install Rust 1.95 or later, or name a program: COGRAIN_PROGRAM=PATH"
+            "cargo: not found; install Rust 1.95 or later (rustup.rs), or take a wheel that tools/release has made"
         ) from None
+    except subprocess.CalledProcessError:
+        raise SystemExit("cargo did not build the program; its reasons stand above") from None
     described = subprocess.run(
         [cargo, "metadata", "--format-version", "1", "--no-deps"], cwd=ROOT, check=True, capture_output=True
     )
@@ -124,19 +141,22 @@ def metadata():
     return "\n".join(lines)
 
 
-def write(folder, tag, files, programs):
-    """Writes the wheel with these files, and with programs that may be run."""
-    information = f"{NAME}.dist-info"
+def information(tag):
+    """The files of the wheel that tell of it."""
     pure = "true" if tag.endswith("any") else "false"
     wheel = f"Wheel-Version: 1.0\nGenerator: cograin\nRoot-Is-Purelib: {pure}\nTag: {tag}\n"
-    files = {
-        **files,
-        **{f"{information}/licenses/{Path(path).name}": (ROOT / path).read_bytes() for path in LICENSES},
-        f"{information}/METADATA": metadata().encode(),
-        f"{information}/WHEEL": wheel.encode(),
+    return {
+        **{f"{INFORMATION}/licenses/{Path(path).name}": (ROOT / path).read_bytes() for path in LICENSES},
+        f"{INFORMATION}/METADATA": metadata().encode(),
+        f"{INFORMATION}/WHEEL": wheel.encode(),
     }
+
+
+def write(folder, tag, files, programs):
+    """Writes the wheel with these files, and with programs that may be run."""
+    files = {**files, **information(tag)}
     record = "".join(f"{path},sha256={digest(data)},{len(data)}\n" for path, data in {**files, **programs}.items())
-    files[f"{information}/RECORD"] = f"{record}{information}/RECORD,,\n".encode()
+    files[f"{INFORMATION}/RECORD"] = f"{record}{INFORMATION}/RECORD,,\n".encode()
     path = folder / f"{NAME}-{tag}.whl"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for mode, entries in ((0o755, programs), (0o644, files)):

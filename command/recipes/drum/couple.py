@@ -2,7 +2,7 @@
 
 from cograin import Program, Unit
 
-SPEED, GAIN, STEP = 3.0, 2e-3, 1e-3  # [rad/s], [N m s], [s]
+SPEED, GAIN, STEP = 3.0, 5e-2, 1e-3  # [rad/s], [N m s], [s]
 
 Program().export("scene.toml", "drum.fmu")
 with Unit("drum.fmu") as drum:

@@ -1,4 +1,4 @@
-"""Presses the lid through the unit and prints stress over strain."""
+"""Presses the lid through the unit and prints stress over strain, from where it meets the grains."""
 
 from cograin import Program, Unit
 
@@ -9,8 +9,13 @@ program.settle("scene.toml", "settled.checkpoint")
 program.export("scene.toml", "oedometer.fmu", start="settled.checkpoint")
 with Unit("oedometer.fmu") as unit:
     print("strain,stress [Pa]")
+    met = None  # how far the lid had gone when it met the grains [m]
     for step in range(1, 201):
-        unit["lid.displacement.z"] = -SPEED * step * 1e-3  # where the lid is at the end of the step
+        way = SPEED * step * 1e-3
+        unit["lid.displacement.z"] = -way  # where the lid is at the end of the step
         unit.step(1e-3)
-        if step % 10 == 0:
-            print(f"{SPEED * step * 1e-3 / HEIGHT:.5f},{unit['lid.mean_force.z'] / AREA:.5g}")
+        stress = unit["lid.mean_force.z"] / AREA
+        if met is None and stress > 0.0:
+            met = way
+        if met is not None and step % 10 == 0:
+            print(f"{(way - met) / (HEIGHT - met):.5f},{stress:.5g}")

@@ -210,3 +210,16 @@ fn lists_at_meshes_that_need_more_memory_than_there_is_are_refused_before_they_a
         "{said}"
     );
 }
+
+/// A floor that no law holds: the sphere fell through it, and only `check` and the summary said so.
+#[test]
+fn a_run_tells_its_remarks() {
+    let place = Place::new("remarks");
+    let scene = place.scene("end = 1e-4\nstep = 1e-5", "");
+    let text = fs::read_to_string(&scene).unwrap();
+    fs::write(&scene, text.replace("[contact.touch", "#[contact.touch")).unwrap();
+    let output = cograin(&[&"run", &scene, &"-o", &place.at("out")]).output().unwrap();
+    complaint(&output, 0);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("\nremark: [boundary.floor]: particles of "), "{said}");
+}

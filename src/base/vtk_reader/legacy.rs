@@ -255,11 +255,32 @@ impl Rest<'_> {
             }
             let name = readable(&name);
             let (components, count, kind) = (self.count()?, self.count()?, self.needed("a type")?);
+            read += 1;
+            if kind == "string" {
+                self.pass_strings(count.saturating_mul(components), &name)?;
+                continue;
+            }
             let values = self.numbers(count, components, &kind, &name)?;
             if accepts(&name) {
                 piece.arrays.push(Array { name, components, values });
             }
-            read += 1;
+        }
+        Ok(())
+    }
+
+    /// Passes over so many strings: lines, or bytes behind a length whose first two bits say how long it is itself.
+    fn pass_strings(&mut self, count: usize, name: &str) -> Result<(), String> {
+        let short = || format!("fewer strings of {name} than the {count} that are announced");
+        self.line();
+        for _ in 0..count {
+            let first = *self.bytes.first().ok_or_else(short)?;
+            if self.ascii {
+                self.line();
+                continue;
+            }
+            let (head, rest) = self.bytes.split_at_checked(8 >> (first >> 6)).ok_or_else(short)?;
+            let all = head[1..].iter().fold(u64::from(first & 0x3F), |length, byte| length << 8 | u64::from(*byte));
+            self.bytes = usize::try_from(all).ok().and_then(|length| rest.get(length..)).ok_or_else(short)?;
         }
         Ok(())
     }

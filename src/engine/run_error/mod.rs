@@ -293,6 +293,16 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
     },
+    /// A communication step so short that no clock tells it from none beside its time steps.
+    #[error("expected at least 1/{MOST_STEPS:e} of a time step of {step:e} s from t = {time} s on, found {interval:e} s", time = plain(*time))]
+    TooShort {
+        /// What was asked for \[s\].
+        interval: f64,
+        /// The time step \[s\].
+        step: f64,
+        /// Time \[s\].
+        time: f64,
+    },
     /// An interval that is not a finite number above 0.
     #[error("expected an interval above 0 and finite, found {interval} s")]
     Interval {

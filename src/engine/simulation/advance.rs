@@ -7,9 +7,15 @@ use crate::engine::boundaries::{course, nodes};
 use crate::engine::state::Underway;
 use crate::engine::state::clock::MOST_STEPS;
 use crate::laws::motion::Progress;
+use crate::scene::Boundary;
 
 /// An interval this close to a whole number of time steps (over the time step) counts as that number.
 const WHOLE: f64 = 1e-6;
+
+/// How many times as long as the one before a time step may be where the outside moves boundaries. The forces at the end of a step
+/// begin the next one: after a communication step that is far shorter than a time step, its dashpots would act for far longer than
+/// the motion that they belong to.
+const GROWTH: f64 = 2.0;
 
 impl Simulation {
     /// Runs one communication step of `interval` \[s\]: driven axes arrive at its end. One that was left on its way is not gone on
@@ -98,15 +104,19 @@ impl Simulation {
             self.shorten_step();
         }
         self.lengthen_step(interval);
-        let (count, step) = self.divide(interval)?;
+        let (step, time) = (self.state.clock.step, self.time());
+        if interval < step / MOST_STEPS {
+            return Err(RunError::TooShort { interval, step, time });
+        }
+        let (count, step) = self.divide(interval, step)?;
         let underway = Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed };
         self.note_division(0, &underway);
         Ok(underway)
     }
 
-    /// Divides an interval \[s\] by the present time step, unless nobody can mean so many.
-    fn divide(&self, interval: f64) -> Result<(u64, f64), RunError> {
-        let (step, time) = (self.state.clock.step, self.time());
+    /// Divides an interval \[s\] by this time step, unless nobody can mean so many.
+    fn divide(&self, interval: f64, step: f64) -> Result<(u64, f64), RunError> {
+        let time = self.time();
         let count = interval / step;
         if count > MOST_STEPS {
             return Err(RunError::TooManySteps { step, count, interval, time });
@@ -114,13 +124,27 @@ impl Simulation {
         Ok(divide(interval, step))
     }
 
-    /// Divides what is left of a communication step by the present time step.
-    fn divide_rest(&mut self, underway: &mut Underway) -> Result<(), RunError> {
+    /// Divides what is left of a communication step by this time step.
+    fn divide_rest(&mut self, underway: &mut Underway, step: f64) -> Result<(), RunError> {
         let (elapsed, length, made) = (underway.elapsed(), underway.length, underway.done);
-        let (count, step) = self.divide(length - elapsed)?;
+        let (count, step) = self.divide(length - elapsed, step)?;
         *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
         self.note_division(made, underway);
         Ok(())
+    }
+
+    /// The time step by which what is left is to be divided anew, since the one before was far shorter than time steps are; none where
+    /// it was not.
+    fn growing(&self, underway: &Underway) -> Option<f64> {
+        let (last, whole) = (self.state.clock.last_step, self.state.clock.step);
+        if last <= 0.0 || self.is_repeated() || !self.scene.boundaries.iter().any(Boundary::is_led) {
+            return None;
+        }
+        let left = underway.count - underway.done;
+        let most = GROWTH * last.max(left as f64 * underway.step / MOST_STEPS);
+        let longest = whole.min(most);
+        let is_other = underway.step > (1.0 + WHOLE) * most || (left > 1 && GROWTH * underway.step <= longest);
+        is_other.then_some(longest)
     }
 
     /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, or what is in contact
@@ -133,7 +157,11 @@ impl Simulation {
             }
             let step = underway.step;
             if self.outruns(step) && !self.goes_on(underway) && self.shorten_step() {
-                self.divide_rest(underway)?;
+                self.divide_rest(underway, self.state.clock.step)?;
+                continue;
+            }
+            if let Some(longer) = self.growing(underway) {
+                self.divide_rest(underway, longer)?;
                 continue;
             }
             self.check_displacement(step)?;
@@ -169,7 +197,7 @@ impl Simulation {
         }
         let left = underway.length - underway.elapsed();
         let changes = self.shorten_step() || (seen == Seen::Everything && self.lengthen_step(left));
-        if changes && is_left { self.divide_rest(underway) } else { Ok(()) }
+        if changes && is_left { self.divide_rest(underway, self.state.clock.step) } else { Ok(()) }
     }
 }
 

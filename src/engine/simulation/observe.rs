@@ -165,17 +165,17 @@ impl Simulation {
         ratio
     }
 
-    /// The fastest of the particles that forces move: its number in the scene, its speed \[m/s\] and its radius \[m\].
+    /// The fastest of the particles that forces move: its index, its speed \[m/s\] and its radius \[m\].
     pub fn fastest(&self) -> Option<(u32, f64, f64)> {
         let particles = &self.state.particles;
         let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
         let speed = |slot: usize| Vector::from(particles.velocity[slot]).length();
         let slot = free.reduce(|most, next| if speed(next) > speed(most) { next } else { most })?;
-        Some((self.number(particles.id[slot]), speed(slot), particles.position[slot][3]))
+        Some((particles.id[slot], speed(slot), particles.position[slot][3]))
     }
 
     /// Mean normal force of the contacts, or, where no contact presses, mean force of the bonds \[N\]; none without either.
-    fn mean_interaction(&self) -> Option<f64> {
+    pub fn mean_interaction(&self) -> Option<f64> {
         let contacts: Vec<f64> = self.contacts().iter().map(|contact| contact.normal_force.abs()).collect();
         let bonds = || -> Vec<f64> {
             let force = |BondLoads { axis, normal, shear, .. }| Vector::from(axis) * normal + Vector::from(shear);

@@ -233,6 +233,7 @@ impl Simulation {
             | RunError::Invalid { .. }
             | RunError::Stopped { .. }
             | RunError::TooManySteps { .. }
+            | RunError::TooShort { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
             | RunError::Collapsed { .. }

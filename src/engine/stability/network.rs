@@ -44,6 +44,9 @@ struct Column {
     rows: Vec<[f32; 2]>,
 }
 
+/// How many units a part may have: far from where single precision ends, at 2^128.
+const MOST_UNITS: f64 = (1_u128 << 100) as f64;
+
 /// A number in single precision, whatever its size.
 #[inline(always)]
 pub(super) fn single(number: f64) -> f64 {
@@ -61,8 +64,18 @@ impl Column {
             self.unit = binade(parts[0].max(parts[1]));
             self.rows.reserve(most);
             self.rows.resize(before, [0.0; 2]);
+        } else if parts[0].max(parts[1]) > MOST_UNITS * self.unit {
+            self.count_in(binade(parts[0].max(parts[1])));
         }
         self.rows.push(parts.map(|part| (part / self.unit) as f32));
+    }
+
+    /// Counts them in a larger unit: what single precision no longer holds beside that vanishes.
+    #[cold]
+    fn count_in(&mut self, unit: f64) {
+        let share = self.unit / unit;
+        self.rows.iter_mut().flatten().for_each(|part| *part = (share * f64::from(*part)) as f32);
+        self.unit = unit;
     }
 
     /// Those of an element.

@@ -163,19 +163,22 @@ impl Scales {
         }
     }
 
-    /// A usual magnitude of a quantity, where the scene tells one: a radius, the weight of all particles and what follows of these.
+    /// A usual magnitude of a quantity, to three digits, where the scene tells one: a radius, the weight of all particles and what
+    /// follows of these.
     fn nominal(&self, quantity: Quantity) -> Option<f64> {
         let Self { length, mass, gravity } = *self;
         let value = match quantity {
             Quantity::Length => length,
             Quantity::Mass => mass,
             Quantity::Velocity => (gravity * length).sqrt(),
+            Quantity::GranularTemperature => gravity * length,
             Quantity::Force => mass * gravity,
             Quantity::Torque | Quantity::Energy => mass * gravity * length,
             Quantity::Stiffness => mass * gravity / length,
             _ => return None,
         };
-        (value.is_finite() && value > 0.0).then_some(value)
+        let rounded: f64 = format!("{value:.2e}").parse().ok()?;
+        (rounded.is_finite() && rounded > 0.0).then_some(rounded)
     }
 }
 

@@ -68,16 +68,31 @@ impl Experiment {
         Ok(experiment)
     }
 
-    /// The manifest and the tables.
-    pub(super) fn files(self) -> io::Result<[Resource; 3]> {
+    /// The manifest, the tables, and how they are used.
+    pub(super) fn files(self) -> io::Result<Vec<Resource>> {
         let files = [
             ("fmi-ls-manifest.xml", manifest()?),
             ("inputs.csv", self.inputs.into_bytes()),
             ("results.csv", self.results.into_bytes()),
         ];
-        Ok(files.map(|(name, bytes)| Resource::new(name, bytes).inside(FOLDER)))
+        let mut files: Vec<_> = files.map(|(name, bytes)| Resource::new(name, bytes).inside(FOLDER)).into();
+        files.push(Resource::new("documentation/fmi-ls-ref.txt", HOW.to_owned()));
+        Ok(files)
     }
 }
+
+/// How the experiment is repeated, where the layered standard asks for such words.
+const HOW: &str = "\
+A short experiment, by which an importer sees that it steps this unit rightly.
+
+../extra/org.fmi-standard.fmi-ls-ref/inputs.csv   inputs at the communication points
+../extra/org.fmi-standard.fmi-ls-ref/results.csv  outputs there
+
+Parameters keep their start values. Set the inputs of the first row before the end of the initialisation mode; the outputs are
+then those of the first row of the results. For each further row set its inputs, step to its time, and read the outputs. They
+are the same to the last digit, on every platform and for any number of threads, if the communication steps are as long as the
+first one.
+";
 
 /// What the manifest names: kind, place, role, and what it is.
 const RELATED: [[&str; 4]; 4] = [

@@ -98,8 +98,8 @@ pub enum LibraryError {
         /// The first one that is missing.
         missing: &'static str,
     },
-    /// FMI 2.0 has no name for its system.
-    #[error("{}: expected a library for Linux, Windows or macOS on x86, which FMI 2.0 has folders for, found one for {found}", path.display())]
+    /// FMI has no name for its system.
+    #[error("{}: expected a library for Linux, Windows or macOS on a processor that FMI has a name for, found one for {found}", path.display())]
     Platform {
         /// Its path.
         path: PathBuf,
@@ -110,7 +110,7 @@ pub enum LibraryError {
     #[error("expected one library for {folder}, found {} and {}", paths[0].display(), paths[1].display())]
     Twice {
         /// The place.
-        folder: &'static str,
+        folder: String,
         /// The two libraries.
         paths: [PathBuf; 2],
     },
@@ -122,10 +122,10 @@ fn list(paths: &[PathBuf]) -> String {
 }
 
 /// How FMI 2.0 names a kind of machine.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Platform {
     /// Folder of the library in the unit.
-    pub(super) folder: &'static str,
+    pub(super) folder: String,
     /// End of the library's name.
     pub(super) suffix: &'static str,
 }
@@ -133,7 +133,7 @@ pub(super) struct Platform {
 /// A library that a unit carries.
 #[derive(Debug)]
 pub(super) struct Library {
-    /// The machines that it is for.
+    /// The kind of machine that finds it in its folder.
     pub(super) platform: Platform,
     /// Its bytes.
     pub(super) bytes: Vec<u8>,
@@ -142,52 +142,62 @@ pub(super) struct Library {
 impl Library {
     /// The libraries at these paths, in the order of their folders, if all are libraries of units for different machines.
     pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<Self>, LibraryError> {
-        let mut found: BTreeMap<Platform, (&PathBuf, Self)> = BTreeMap::new();
+        let mut found: BTreeMap<Platform, (&PathBuf, Vec<u8>)> = BTreeMap::new();
         for path in paths {
-            let library = Self::read(path)?;
-            let folder = library.platform.folder;
-            if let Some((other, _)) = found.insert(library.platform, (path, library)) {
-                return Err(LibraryError::Twice { folder, paths: [other.clone(), path.clone()] });
+            let (platforms, bytes) = Self::read(path)?;
+            for platform in platforms {
+                let folder = platform.folder.clone();
+                if let Some((other, _)) = found.insert(platform, (path, bytes.clone())) {
+                    return Err(LibraryError::Twice { folder, paths: [other.clone(), path.clone()] });
+                }
             }
         }
-        Ok(found.into_values().map(|(_, library)| library).collect())
+        Ok(found.into_iter().map(|(platform, (_, bytes))| Self { platform, bytes }).collect())
     }
 
-    /// The library at a path, if it is one.
-    fn read(path: &Path) -> Result<Self, LibraryError> {
+    /// The file at a path, if it is a library of units, and the machines that it is for: several where it holds code for several
+    /// processors, as those of a Mac.
+    fn read(path: &Path) -> Result<(BTreeSet<Platform>, Vec<u8>), LibraryError> {
         let path_of = || path.to_owned();
         let bytes = fs::read(path).map_err(|cause| LibraryError::Read { path: path_of(), cause })?;
-        let image = Image::of(&bytes).map_err(|found| LibraryError::Kind { path: path_of(), found })?;
+        let images = Image::all_of(&bytes).map_err(|found| LibraryError::Kind { path: path_of(), found })?;
         let mark = LIBRARY_MARK.as_bytes();
         if !bytes.windows(mark.len()).any(|window| window == mark) {
             return Err(LibraryError::Foreign { path: path_of() });
         }
-        let platform = image.platform().map_err(|found| LibraryError::Platform { path: path_of(), found })?;
-        let functions = image.functions().map_err(|found| LibraryError::Kind { path: path_of(), found })?;
-        match FUNCTIONS.into_iter().find(|name| !functions.contains(name.as_bytes())) {
-            Some(missing) => Err(LibraryError::Function { path: path_of(), missing }),
-            None => Ok(Self { platform, bytes }),
+        let mut platforms = BTreeSet::new();
+        for image in &images {
+            platforms.insert(image.platform().map_err(|found| LibraryError::Platform { path: path_of(), found })?);
+            let functions = image.functions().map_err(|found| LibraryError::Kind { path: path_of(), found })?;
+            if let Some(missing) = FUNCTIONS.into_iter().find(|name| !functions.contains(name.as_bytes())) {
+                return Err(LibraryError::Function { path: path_of(), missing });
+            }
         }
+        Ok((platforms, bytes))
     }
 }
 
-/// A file of machine code.
+/// Machine code for one processor.
 struct Image<'a> {
-    /// For one processor; that for x86-64 where the file holds several.
+    /// The file, or that part of it.
     file: object::File<'a>,
 }
 
 impl<'a> Image<'a> {
-    /// The shared library that the bytes are, or what they are instead.
-    fn of(bytes: &'a [u8]) -> Result<Self, String> {
-        let damaged = |error: object::Error| format!("a damaged one: {error}");
-        let part = match FileKind::parse(bytes) {
+    /// The shared library that the bytes are, for each of its processors, or what they are instead.
+    fn all_of(bytes: &'a [u8]) -> Result<Vec<Self>, String> {
+        let parts = match FileKind::parse(bytes) {
             Err(_) => return Err("another file".to_owned()),
-            Ok(FileKind::MachOFat32) => part_of(MachOFatFile32::parse(bytes).map_err(damaged)?.arches(), bytes)?,
-            Ok(FileKind::MachOFat64) => part_of(MachOFatFile64::parse(bytes).map_err(damaged)?.arches(), bytes)?,
-            Ok(_) => bytes,
+            Ok(FileKind::MachOFat32) => parts_of(MachOFatFile32::parse(bytes).map_err(damaged)?.arches(), bytes)?,
+            Ok(FileKind::MachOFat64) => parts_of(MachOFatFile64::parse(bytes).map_err(damaged)?.arches(), bytes)?,
+            Ok(_) => vec![bytes],
         };
-        let file = object::File::parse(part).map_err(damaged)?;
+        parts.into_iter().map(Self::of).collect()
+    }
+
+    /// The shared library for one processor.
+    fn of(bytes: &'a [u8]) -> Result<Self, String> {
+        let file = object::File::parse(bytes).map_err(damaged)?;
         match file.kind() {
             ObjectKind::Dynamic => Ok(Self { file }),
             ObjectKind::Executable => Err("a program".to_owned()),
@@ -195,33 +205,35 @@ impl<'a> Image<'a> {
         }
     }
 
-    /// The machines that it is for, or their name if FMI 2.0 has none for them.
+    /// The machines that it is for, or their name if FMI has none for them. FMI 2.0 has names of its own for x86 and, since 2.0.4,
+    /// takes those of FMI 3.0 for other processors.
     fn platform(&self) -> Result<Platform, String> {
         /// Values of the ELF header's field for the system that Linux uses: none, and GNU.
         const LINUX: [u8; 2] = [0, 3];
         let (format, processor) = (self.file.format(), self.file.architecture());
         let linux = !matches!(self.file.flags(), FileFlags::Elf { os_abi, .. } if !LINUX.contains(&os_abi.0));
-        let (system, suffix, folders) = match format {
-            BinaryFormat::Elf if linux => ("Linux", ".so", ["linux32", "linux64"]),
-            BinaryFormat::Elf => ("another Unix", ".so", ["", ""]),
-            BinaryFormat::Pe => ("Windows", ".dll", ["win32", "win64"]),
-            BinaryFormat::MachO => ("macOS", ".dylib", ["darwin32", "darwin64"]),
-            _ => ("another system", "", ["", ""]),
+        let (system, name, short, suffix) = match format {
+            BinaryFormat::Elf if linux => ("Linux", "linux", "linux", ".so"),
+            BinaryFormat::Pe => ("Windows", "windows", "win", ".dll"),
+            BinaryFormat::MachO => ("macOS", "darwin", "darwin", ".dylib"),
+            _ => ("another system", "", "", ""),
         };
         let folder = match processor {
-            Architecture::I386 => folders[0],
-            Architecture::X86_64 => folders[1],
-            _ => "",
+            _ if name.is_empty() => None,
+            Architecture::I386 => Some(format!("{short}32")),
+            Architecture::X86_64 => Some(format!("{short}64")),
+            Architecture::Arm => Some(format!("aarch32-{name}")),
+            Architecture::Aarch64 => Some(format!("aarch64-{name}")),
+            Architecture::Riscv32 => Some(format!("riscv32-{name}")),
+            Architecture::Riscv64 => Some(format!("riscv64-{name}")),
+            _ => None,
         };
-        if folder.is_empty() {
-            return Err(format!("{system} on {}", format!("{processor:?}").to_lowercase()));
-        }
-        Ok(Platform { folder, suffix })
+        let machine = || format!("{system} on {}", format!("{processor:?}").to_lowercase());
+        Ok(Platform { folder: folder.ok_or_else(machine)?, suffix })
     }
 
     /// Names of the functions that it offers, as C has them.
     fn functions(&self) -> Result<BTreeSet<Vec<u8>>, String> {
-        let damaged = |error: object::Error| format!("a damaged one: {error}");
         let underscore: &[u8] = if self.file.format() == BinaryFormat::MachO { b"_" } else { b"" };
         let mut names = BTreeSet::new();
         for export in self.file.exports().map_err(damaged)? {
@@ -233,10 +245,15 @@ impl<'a> Image<'a> {
     }
 }
 
-/// Of a file for several processors the part for x86-64, or else the first.
-fn part_of<'a>(parts: &[impl FatArch], bytes: &'a [u8]) -> Result<&'a [u8], String> {
-    let wanted = parts.iter().find(|part| part.architecture() == Architecture::X86_64).or(parts.first());
-    wanted.and_then(|part| part.data(bytes).ok()).ok_or_else(|| "a damaged one: no part can be read".to_owned())
+/// Of a file for several processors the part for each.
+fn parts_of<'a>(parts: &[impl FatArch], bytes: &'a [u8]) -> Result<Vec<&'a [u8]>, String> {
+    let parts: Vec<_> = parts.iter().map(|part| part.data(bytes)).collect::<Result<_, _>>().map_err(damaged)?;
+    if parts.is_empty() { Err("a damaged one: it has no part".to_owned()) } else { Ok(parts) }
+}
+
+/// What is said of a file that cannot be read to its end.
+fn damaged(error: object::Error) -> String {
+    format!("a damaged one: {error}")
 }
 
 /// Finds the libraries: at the paths given, one for each platform, else where [`ENVIRONMENT_VARIABLE`] says, else beside the running
@@ -273,14 +290,16 @@ fn beside(name: &str, program: Option<PathBuf>) -> Vec<PathBuf> {
 mod tests {
     use super::*;
     use crate::output::export::sample_library::{self as sample, Sample};
+    use crate::output::scratch::Scratch;
 
-    /// The name by which the library at a path of this test is refused, or the folder that it gets.
-    fn verdict(name: &str, bytes: &[u8]) -> Result<&'static str, String> {
-        let path = env::temp_dir().join(format!("cograin-library-{}-{name}", std::process::id()));
+    /// The name by which the library at a path of this test is refused, or the folders that it gets.
+    fn verdict(name: &str, bytes: &[u8]) -> Result<String, String> {
+        let folder = Scratch::new();
+        let path = folder.join(name);
         fs::write(&path, bytes).unwrap();
+        let folders = |platforms: BTreeSet<Platform>| platforms.into_iter().map(|it| it.folder).collect::<Vec<_>>();
         let read = Library::read(&path);
-        fs::remove_file(&path).unwrap();
-        read.map(|library| library.platform.folder).map_err(|error| error.to_string())
+        read.map(|(platforms, _)| folders(platforms).join(" ")).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -306,24 +325,29 @@ mod tests {
             (Sample::WINDOWS, "win64"),
             (Sample { bits: 32, ..Sample::WINDOWS }, "win32"),
             (Sample::MACOS, "darwin64"),
+            (Sample { arm: true, ..Sample::LINUX }, "aarch64-linux"),
+            (Sample { arm: true, bits: 32, ..Sample::LINUX }, "aarch32-linux"),
+            (Sample { arm: true, ..Sample::WINDOWS }, "aarch64-windows"),
+            (Sample { arm: true, ..Sample::MACOS }, "aarch64-darwin"),
         ] {
             assert_eq!(verdict(folder, &made.bytes()).as_deref(), Ok(folder));
         }
-        let both = sample::universal(&[Sample { arm: true, ..Sample::MACOS }, Sample::MACOS]);
-        assert_eq!(verdict("universal", &both).as_deref(), Ok("darwin64"), "one for both processors of a Mac");
+        let both = [Sample { arm: true, ..Sample::MACOS }, Sample::MACOS];
+        let folders = verdict("universal", &sample::universal(&both));
+        assert_eq!(folders.as_deref(), Ok("aarch64-darwin darwin64"), "one file for both processors of a Mac");
+        let half = [both[0], Sample { without: "fmi2DoStep", ..both[1] }];
+        assert!(verdict("half", &sample::universal(&half)).unwrap_err().ends_with("found none called fmi2DoStep"));
     }
 
     #[test]
     fn other_machines_are_named() {
-        for (made, found) in [
-            (Sample { arm: true, ..Sample::LINUX }, "Linux on aarch64"),
-            (Sample { arm: true, ..Sample::WINDOWS }, "Windows on aarch64"),
-            (Sample { arm: true, ..Sample::MACOS }, "macOS on aarch64"),
-            (Sample { system: 9, ..Sample::LINUX }, "another Unix on x86_64"),
-        ] {
-            let message = verdict("machine", &made.bytes()).unwrap_err();
-            assert!(message.ends_with(&format!("found one for {found}")), "{message}");
-        }
+        let message = verdict("system", &Sample { system: 9, ..Sample::LINUX }.bytes()).unwrap_err();
+        assert!(message.ends_with("found one for another system on x86_64"), "{message}");
+        let mut mips = Sample::LINUX.bytes();
+        // The number of the processor stands at byte 18 of an ELF header; 8 is MIPS.
+        mips[18] = 8;
+        let message = verdict("processor", &mips).unwrap_err();
+        assert!(message.ends_with("found one for Linux on mips64"), "{message}");
     }
 
     #[test]
@@ -347,14 +371,13 @@ mod tests {
 
     #[test]
     fn two_libraries_for_one_platform_are_refused_with_both_names() {
-        let folder = env::temp_dir();
-        let paths = ["one", "two"].map(|name| folder.join(format!("cograin-twice-{}-{name}", std::process::id())));
+        let folder = Scratch::new();
+        let paths = ["one", "two"].map(|name| folder.join(name));
         for path in &paths {
             fs::write(path, Sample::LINUX.bytes()).unwrap();
         }
         let message = Library::read_all(&paths).unwrap_err().to_string();
         for path in &paths {
-            fs::remove_file(path).unwrap();
             assert!(message.contains(&path.display().to_string()), "{message}");
         }
         assert!(message.starts_with("expected one library for linux64, found "), "{message}");

@@ -88,7 +88,7 @@ pub fn export(
     };
 
     let mut entries = vec![Resource::new("modelDescription.xml", description::write(&model).map_err(written)?)];
-    let platforms: Vec<_> = libraries.iter().map(|library| library.platform.folder).collect();
+    let platforms: Vec<_> = libraries.iter().map(|library| library.platform.folder.as_str()).collect();
     let picture = picture::png(scene, simulation.state());
     let steps = page::steps(scene, &simulation);
     // A scene that starts and then stops by itself has a unit without an experiment.

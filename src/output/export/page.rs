@@ -94,7 +94,7 @@ impl Page<'_> {
         format!("<table>\n{rows}</table>\n")
     }
 
-    /// The variables of one causality, those of nodes once.
+    /// The variables of one causality, those of nodes once, and components of one quantity in one row.
     fn table(&self, causality: Causality) -> String {
         let shown = |variable: &&Variable| variable.node().is_none_or(|node| node == 0);
         let variables: Vec<&Variable> =
@@ -105,17 +105,21 @@ impl Page<'_> {
         let has_start = causality != Causality::Output;
         let start = if has_start { "<th>start</th>" } else { "" };
         let mut rows = format!("<tr><th>variable</th><th>unit</th>{start}<th>meaning</th></tr>\n");
-        for variable in variables {
-            let start = variable.start.map(|start| start.to_string()).or(variable.start_text().map(str::to_owned));
+        for (variables, meaning) in together(&variables) {
+            let variable = variables[0];
+            let mut names = format!("<code>{}</code>", escape(variable.name.as_str()));
+            for more in &variables[1..] {
+                let _ = write!(names, ", <code>.{}</code>", escape(component(more).1));
+            }
+            let start = variable.start.map(number).or(variable.start_text().map(str::to_owned));
             let start =
                 if has_start { format!("<td>{}</td>", escape(start.unwrap_or_default())) } else { String::new() };
             let tunable = causality == Causality::Parameter && variable.variability == Variability::Tunable;
             let _ = writeln!(
                 rows,
-                "<tr><td><code>{}</code></td><td>{}</td>{start}<td>{}{}{}</td></tr>",
-                escape(variable.name.as_str()),
+                "<tr><td>{names}</td><td>{}</td>{start}<td>{}{}{}</td></tr>",
                 escape(variable.quantity.unit().unwrap_or("")),
-                escape(variable.description.as_str()),
+                escape(meaning),
                 escape(range(variable)),
                 if tunable { "; tunable" } else { "" },
             );
@@ -138,8 +142,8 @@ impl Page<'_> {
             ""
         };
         let experiment = if self.has_experiment {
-            " <code>extra/org.fmi-standard.fmi-ls-ref</code> has a short experiment: inputs, and what the unit answered; an \
-             importer that repeats it gets the same numbers."
+            " A short experiment shows an importer whether it steps the unit rightly: \
+             <a href=\"fmi-ls-ref.txt\">fmi-ls-ref.txt</a>."
         } else {
             ""
         };
@@ -181,13 +185,54 @@ fn list<'a>(words: impl Iterator<Item = &'a str>) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Between which bounds a variable is.
+/// Name of a variable up to its last dot, and what stands behind.
+fn component(variable: &Variable) -> (&str, &str) {
+    variable.name.rsplit_once('.').unwrap_or(("", &variable.name))
+}
+
+/// Variables in a row that are components of one quantity, and what they are: the words of the first, with all components in place of
+/// its own.
+fn together<'a>(variables: &[&'a Variable]) -> Vec<(Vec<&'a Variable>, String)> {
+    /// In place of a component.
+    const HERE: &str = "\u{fffc}";
+    let meaning = |variable: &Variable| {
+        let own = component(variable).1;
+        let words = variable.description.split(' ').map(|word| match word.trim_end_matches([',', ';', ':']) {
+            stem if stem == own => format!("{HERE}{}", &word[stem.len()..]),
+            _ => word.to_owned(),
+        });
+        words.collect::<Vec<_>>().join(" ")
+    };
+    let shared = |variable: &Variable| {
+        let words = meaning(variable);
+        let stem = if words.contains(HERE) { component(variable).0 } else { variable.name.as_str() };
+        (stem.to_owned(), words, variable.start)
+    };
+    let groups = variables.chunk_by(|one, other| shared(one) == shared(other));
+    let all = |group: &[&Variable]| list(group.iter().map(|variable| component(variable).1));
+    groups.map(|group| (group.to_vec(), meaning(group[0]).replace(HERE, &all(group)))).collect()
+}
+
+/// A number as people write it.
+fn number(value: f64) -> String {
+    let usual = value == 0.0 || (1e-3..1e5).contains(&value.abs());
+    if usual { value.to_string() } else { format!("{value:e}") }
+}
+
+/// Between which bounds a variable is; where 0 or a maximum itself is not allowed, the bound is the number next to it.
 fn range(variable: &Variable) -> String {
-    match [variable.minimum, variable.maximum] {
+    let above = variable.minimum.map(|minimum| match minimum {
+        f64::MIN_POSITIVE => "above 0".to_owned(),
+        _ => format!("at least {}", number(minimum)),
+    });
+    let below = variable.maximum.map(|maximum| match maximum.next_up() {
+        next if next == next.round() && maximum != maximum.round() => format!("below {}", number(next)),
+        _ => format!("at most {}", number(maximum)),
+    });
+    match [above, below] {
         [None, None] => String::new(),
-        [Some(minimum), None] => format!("; at least {minimum}"),
-        [None, Some(maximum)] => format!("; at most {maximum}"),
-        [Some(minimum), Some(maximum)] => format!("; from {minimum} to {maximum}"),
+        [Some(bound), None] | [None, Some(bound)] => format!("; {bound}"),
+        [Some(above), Some(below)] => format!("; {above}, {below}"),
     }
 }
 

@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::interface::Causality;
+use crate::output::scratch::Scratch;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::Read;
-use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A group, a driven plane and a plane at rest.
 const SCENE: &str = r#"
@@ -53,17 +53,13 @@ fn source() -> Source {
     Source { name: "scene.toml".to_owned(), text: SCENE.to_owned(), files }
 }
 
-/// A new folder that is removed when it is dropped.
-struct Folder(PathBuf);
+/// A new folder.
+struct Folder(Scratch);
 
 impl Folder {
     /// Makes one.
     fn new() -> Self {
-        static COUNT: AtomicU32 = AtomicU32::new(0);
-        let name = format!("cograin-export-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let path = std::env::temp_dir().join(name);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
+        Self(Scratch::new())
     }
 
     /// Writes something that passes for the library.
@@ -93,12 +89,6 @@ impl Folder {
             entries.insert(entry.name().unwrap().into_owned(), bytes);
         }
         entries
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 
@@ -270,9 +260,10 @@ fn usual_magnitudes_follow_from_the_particles_and_their_weight() {
     };
     // Two spheres of glass with a radius of 10 mm.
     let weight = 2.0 * 2500.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-6 * 9.81;
-    assert!((nominal("floor.force.z") / weight - 1.0).abs() < 1e-12);
-    assert!((nominal("floor.displacement.z") / 0.01 - 1.0).abs() < 1e-12);
-    assert!((nominal("floor.work") / (0.01 * weight) - 1.0).abs() < 1e-12);
+    let digits = |value: f64| format!("{value:.2e}").parse::<f64>().unwrap();
+    assert_eq!(nominal("floor.force.z"), digits(weight));
+    assert_eq!(nominal("floor.displacement.z"), 0.01);
+    assert_eq!(nominal("floor.work"), digits(0.01 * weight));
     assert_eq!(elements.iter().find(|it| it.name == "Integer").and_then(|it| it.get("nominal")), None);
 }
 
@@ -314,6 +305,34 @@ fn a_unit_has_a_library_for_each_platform_a_picture_a_page_and_licences() {
     assert!(page.contains("darwin64, linux64, win64"), "{page}");
     let notices = String::from_utf8_lossy(&unit["documentation/licenses/third_party.txt"]);
     assert!(notices.contains("\nnalgebra "), "the notices name what is inside");
+}
+
+#[test]
+fn the_page_says_bounds_in_words_and_components_in_one_row() {
+    let unit = Folder::new().exported("unit.fmu", None);
+    let page = String::from_utf8_lossy(&unit["documentation/index.html"]).into_owned();
+    let row = |name: &str| {
+        let start = page.find(&format!("<tr><td><code>{name}</code>")).unwrap_or_else(|| panic!("no row of {name}"));
+        page[start..].lines().next().unwrap().to_owned()
+    };
+    assert_eq!(
+        row("floor.force.x"),
+        "<tr><td><code>floor.force.x</code>, <code>.y</code>, <code>.z</code></td><td>N</td><td>force of the particles on floor along \
+         x, y, z</td></tr>"
+    );
+    let driven = row("floor.displacement.x");
+    assert!(
+        driven.contains("</code>, <code>.z</code></td><td>m</td><td>0</td><td>displacement of floor along x, z since"),
+        "{driven}"
+    );
+    assert!(row("floor.work").contains("</code></td><td>J</td>"), "a quantity without components has a row of its own");
+    assert!(row("run.time_step").contains("<td>s</td><td>1e-5</td><td>time step; 0: automatic; at least 0</td>"));
+    assert!(row("run.safety").contains("; at least 0, below 1</td>"), "{}", row("run.safety"));
+    assert!(row("run.accuracy").contains("; above 0, below 1</td>"), "{}", row("run.accuracy"));
+    assert!(row("material.glass.youngs_modulus").contains("<td>5e7</td><td>Young&apos;s modulus; above 0</td>"));
+    assert!(row("material.glass.poissons_ratio").contains("; at least 0, at most 0.5</td>"));
+    assert!(row("pair.glass.glass.restitution").contains("; above 0, at most 1; tunable</td>"));
+    assert!(page.contains("<a href=\"fmi-ls-ref.txt\">") && unit.contains_key("documentation/fmi-ls-ref.txt"));
 }
 
 #[test]
@@ -391,7 +410,7 @@ fn nothing_is_left_where_a_unit_cannot_be_written() {
     assert!(message.contains("missing/unit.fmu"), "{message}");
     fs::create_dir(folder.0.join("taken.fmu")).unwrap();
     assert!(export(&source, &scene, None, &library, &folder.0.join("taken.fmu")).is_err());
-    let left: Vec<_> = fs::read_dir(&folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    let left: Vec<_> = fs::read_dir(&*folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 2, "{left:?}: only the library and the folder in the way are right");
 }
 

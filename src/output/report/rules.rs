@@ -13,14 +13,19 @@ pub(crate) fn rules(scene: &Scene, simulation: &Simulation) -> Option<String> {
     let mut line = format!("Rayleigh time {rayleigh:.3e} s ({:.3} of it)", step / rayleigh);
     if let Some((speed, collision)) = hertz_time(scene, simulation) {
         line += &format!(
-            "; Hertz time at {speed:.3e} m/s {collision:.3e} s ({:.1} steps in that collision)",
-            collision / step
+            "; Hertz time at {speed:.3e} m/s {collision:.3e} s ({} steps in that collision)",
+            rounded(collision / step)
         );
     }
     if let Some(number) = inertial_number(scene, simulation) {
         line += &format!("; inertial number {number:.2e}");
     }
     Some(line)
+}
+
+/// A number of steps as a person reads it.
+fn rounded(number: f64) -> String {
+    if number < 1e6 { format!("{number:.1}") } else { format!("{number:.3e}") }
 }
 
 /// Time of a surface wave over a sphere, π R √(ρ/G)/(0.1631 ν + 0.8766) \[s\].
@@ -69,4 +74,14 @@ fn inertial_number(scene: &Scene, simulation: &Simulation) -> Option<f64> {
     let density = scene.particles.iter().map(|particle| particle.density).sum::<f64>() / count;
     let rate = fastest / extents.iter().copied().fold(0.0, f64::max);
     (rate > 0.0 && pressure > 0.0).then(|| rate * 2.0 * mean * (density / pressure).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rounded;
+
+    #[test]
+    fn numbers_of_steps_stay_short() {
+        assert_eq!([12.34, 1.40137e151].map(rounded), ["12.3", "1.401e151"]);
+    }
 }

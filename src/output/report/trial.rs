@@ -9,7 +9,7 @@ use crate::output::results::vtk::EncodeError;
 use crate::output::run::jobs::{frame, row};
 use std::time::{Duration, Instant};
 
-/// Wall time of the trial, unless a single step takes longer.
+/// Wall time of the trial, unless the first look and one more take longer.
 const PATIENCE: Duration = Duration::from_millis(1000);
 
 /// Wall time between two looks at the clock.
@@ -84,7 +84,7 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
     let (mut late_time, mut late_particles) = (0.0, 0.0);
     let mut time = schedule.map_or(0.0, |(_, begins)| begins);
     let mut at_once = 1.0;
-    while begun.elapsed() < patience {
+    while begun.elapsed() < patience || counted == 0 {
         // Where nothing limits the step, any interval is a single one.
         let piece = match simulation.stable_step().is_finite() {
             true => at_once * simulation.state().clock.step,
@@ -144,4 +144,21 @@ fn price(mut make: impl FnMut() -> Result<f64, EncodeError>) -> Result<OutputCos
 fn bytes_of_frame(simulation: &Simulation) -> Result<f64, EncodeError> {
     let clouds = frames::clouds(simulation.scene(), frame(simulation, 0.0));
     clouds.into_iter().flatten().try_fold(0.0, |sum, cloud| Ok(sum + cloud.encode()?.len() as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, Source};
+    use std::collections::BTreeMap;
+    use std::sync::Arc;
+
+    #[test]
+    fn the_first_look_alone_is_no_measure_however_long_it_takes() {
+        let text = "[run]\nstep = 1e-5\nthreads = 1\n[material.a]\ndensity = 2500.0\n[particles.p]\nmaterial = \"a\"\n\
+                    list = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }]\n";
+        let source = Source { name: "scene.toml".into(), text: text.into(), files: BTreeMap::new() };
+        let mut simulation = Simulation::new(Arc::new(Scene::from_source(&source).unwrap())).unwrap();
+        assert!(steps(&mut simulation, None, Duration::ZERO).steps > 1);
+    }
 }

@@ -52,11 +52,11 @@ fn entry(time: f64, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::scratch::Scratch;
 
     #[test]
     fn adding_frames_gives_the_file_of_all_frames() {
-        let folder = std::env::temp_dir().join(format!("cograin-collection-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+        let folder = Scratch::new();
         let frames: Vec<_> = (0..3).map(|k| (f64::from(k) / 10.0, format!("particles_{k:06}.vtu"))).collect();
         let [one, whole] = [folder.join("one.pvd"), folder.join("whole.pvd")];
         let mut collection = Collection::create(&one, &frames[..1]).unwrap();

@@ -216,7 +216,7 @@ pub enum Failure {
         why: String,
     },
     /// The packing did not come to rest.
-    #[error("not settled after {} (t = {time} s): {}; {}", counted(*steps, "step"), unsettled(*ratio, *tolerance), going_on(kept), time = plain(*time))]
+    #[error("not settled after {} (t = {time} s): {}; {}", counted(*steps, "step"), unsettled(*ratio, *tolerance, why), going_on(kept), time = plain(*time))]
     Unsettled {
         /// Where the state is kept.
         kept: PathBuf,
@@ -228,6 +228,8 @@ pub enum Failure {
         ratio: f64,
         /// What was asked for.
         tolerance: f64,
+        /// Why.
+        why: String,
     },
 }
 
@@ -262,11 +264,10 @@ fn reached(ratio: f64) -> String {
 }
 
 /// What was missing to be settled.
-fn unsettled(ratio: f64, tolerance: f64) -> String {
+fn unsettled(ratio: f64, tolerance: f64, why: &str) -> String {
     if ratio.is_finite() {
         format!(
-            "the unbalanced force is {ratio:.3e} of the mean force of the contacts or bonds, {tolerance:.3e} is asked for; \
-             a looser tolerance, more damping or more --steps may do"
+            "the unbalanced force is {ratio:.3e} of the mean force of the contacts or bonds, {tolerance:.3e} is asked for; {why}"
         )
     } else {
         "nothing touches and no bond is loaded, so there is no force that could come into balance; more --steps, if bodies \

@@ -96,11 +96,11 @@ fn name(holder: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::scratch::Scratch;
 
     #[test]
     fn a_folder_is_locked_once_and_free_again_afterwards() {
-        let folder = std::env::temp_dir().join(format!("cograin-lock-{}", std::process::id()));
-        fs::create_dir_all(&folder).unwrap();
+        let folder = Scratch::new();
         // What a killed process leaves locks nobody out.
         fs::write(folder.join(LOCK), "process 1, started long ago").unwrap();
         let held = FolderLock::take(&folder).unwrap();
@@ -114,9 +114,7 @@ mod tests {
     #[cfg(unix)]
     #[test]
     fn what_is_no_lock_is_neither_followed_nor_emptied() {
-        let folder = std::env::temp_dir().join(format!("cograin-lock-links-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
+        let folder = Scratch::new();
         fs::write(folder.join("mine.txt"), "mine").unwrap();
         std::os::unix::fs::symlink("mine.txt", folder.join(LOCK)).unwrap();
         let told = FolderLock::take(&folder).unwrap_err().to_string();

@@ -199,12 +199,11 @@ fn is_own_folder(path: &Path) -> Result<bool, OutputError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::scratch::Scratch;
 
     /// A folder with these files, each holding the word.
-    fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-        let path = std::env::temp_dir().join(format!("cograin-replacement-{name}-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
+    fn folder(files: &[(&str, &str)]) -> Scratch {
+        let path = Scratch::new();
         for (file, word) in files {
             fs::create_dir_all(path.join(file).parent().unwrap()).unwrap();
             fs::write(path.join(file), word).unwrap();
@@ -241,7 +240,7 @@ mod tests {
 
     #[test]
     fn what_had_not_begun_to_stand_is_undone() {
-        let path = folder("undone", &[("history.csv", "old"), (".cograin-new/history.csv", "new")]);
+        let path = folder(&[("history.csv", "old"), (".cograin-new/history.csv", "new")]);
         take_up(&path).unwrap();
         assert_eq!(contents(&path), [("history.csv".to_owned(), "old".to_owned())]);
     }
@@ -270,10 +269,7 @@ mod tests {
             &[(".cograin-moving/history.csv", new), (".cograin-moving/checkpoint.cograin", checkpoint)],
         ];
         for (number, case) in cases.into_iter().enumerate() {
-            let path = folder(
-                &format!("finished{number}"),
-                &[case, &[("notes.txt", "mine"), ("particles_000003.vtu", "mine")]].concat(),
-            );
+            let path = folder(&[case, &[("notes.txt", "mine"), ("particles_000003.vtu", "mine")]].concat());
             take_up(&path).unwrap();
             assert_eq!(contents(&path), expected, "case {number}");
         }
@@ -290,14 +286,13 @@ mod tests {
         let frames: Vec<String> = (0..4).map(|number| super::super::frame_name("particles", number)).collect();
         let mut files: Vec<(&str, &str)> = frames.iter().map(|frame| (frame.as_str(), "frame")).collect();
         files.extend([("particles.pvd", list.as_str()), ("history.csv", "time,a\n")]);
-        let path = folder("going", &files);
+        let path = folder(&files);
         let all: Vec<_> = last_first(own_results(&path).unwrap()).collect();
         assert_eq!(all.len(), files.len());
         for (gone, file) in all.iter().enumerate() {
             assert_eq!(own_results(&path).unwrap().len(), files.len() - gone);
             fs::remove_file(file).unwrap();
         }
-        fs::remove_dir_all(&path).unwrap();
     }
 
     #[test]
@@ -308,18 +303,18 @@ mod tests {
             (&[("history.csv", "mine"), (".cograin-moving/history.csv", "time,a\n")], "expected no file where"),
             (&[("a", "x"), (".cograin-moving/notes", "x")], ".cograin-moving"),
         ];
-        for (number, (files, expected)) in cases.into_iter().enumerate() {
-            let path = folder(&format!("foreign{number}"), files);
+        for (files, expected) in cases {
+            let path = folder(files);
             let told = take_up(&path).unwrap_err().to_string();
             assert!(told.contains(expected), "{told}");
             for (file, word) in files {
                 assert_eq!(fs::read_to_string(path.join(file)).unwrap(), *word);
             }
         }
-        let others = folder("others", &[("history.csv", "time,a\n"), ("checkpoint.cograin", checkpoint)]);
+        let others = folder(&[("history.csv", "time,a\n"), ("checkpoint.cograin", checkpoint)]);
         for name in [NEW, REPLACING, MOVING] {
-            let path = folder("links", &[("history.csv", "time,b\n")]);
-            std::os::unix::fs::symlink(&others, path.join(name)).unwrap();
+            let path = folder(&[("history.csv", "time,b\n")]);
+            std::os::unix::fs::symlink(&*others, path.join(name)).unwrap();
             let told = take_up(&path).unwrap_err().to_string();
             assert!(told.contains("found a link"), "{name}: {told}");
             assert_eq!(
@@ -327,8 +322,7 @@ mod tests {
                 (2, "time,b\n")
             );
         }
-        let path =
-            folder("named", &[("history.csv", "mine"), ("summary.json", "{}"), ("particles_000000.vtu", "mine")]);
+        let path = folder(&[("history.csv", "mine"), ("summary.json", "{}"), ("particles_000000.vtu", "mine")]);
         assert_eq!(own_results(&path).unwrap(), Vec::<PathBuf>::new());
         assert_eq!(foreign_result(&path).unwrap().as_deref(), Some("history.csv"));
     }

@@ -93,6 +93,7 @@ impl Found {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::output::scratch::Scratch;
 
     /// Column names.
     fn names() -> Vec<String> {
@@ -104,21 +105,20 @@ mod tests {
         [format!("{time:?}"), format!("{force:?}"), "3".to_owned()]
     }
 
-    /// A file of three rows in a folder of its own.
-    fn three_rows(name: &str) -> PathBuf {
-        let folder = std::env::temp_dir().join(format!("cograin-table-{name}-{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
+    /// A file of three rows, and the folder that goes with it.
+    fn three_rows() -> (PathBuf, Scratch) {
+        let folder = Scratch::new();
         let path = folder.join("table.csv");
         let mut table = Table::create(&path, &names()).unwrap();
         for (time, force) in [(0.0, -1.0 / 3.0), (1e-7, 1e300), (0.1, f64::MIN_POSITIVE)] {
             table.add(&row(time, force)).unwrap();
         }
-        path
+        (path, folder)
     }
 
     #[test]
     fn numbers_read_back_as_the_same_bits() {
-        let path = three_rows("bits");
+        let (path, _folder) = three_rows();
         let text = std::fs::read_to_string(&path).unwrap();
         let forces: Vec<f64> =
             text.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn a_reopened_file_goes_on_as_if_it_had_never_been_closed() {
-        let path = three_rows("reopened");
+        let (path, _folder) = three_rows();
         let whole = std::fs::read(&path).unwrap();
         let found = Found::until(&path, &names(), 0.0).unwrap();
         assert_eq!((found.rows, found.first), (1, Some(0.0)));
@@ -140,7 +140,7 @@ mod tests {
 
     #[test]
     fn a_row_that_was_cut_off_is_not_kept() {
-        let path = three_rows("cut");
+        let (path, _folder) = three_rows();
         let whole = std::fs::read(&path).unwrap();
         std::fs::write(&path, &whole[..whole.len() - 2]).unwrap();
         assert_eq!(Found::until(&path, &names(), 1.0).unwrap().rows, 2);
@@ -148,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_file_of_other_columns_is_refused() {
-        let path = three_rows("columns");
+        let (path, _folder) = three_rows();
         let error = Found::until(&path, &names()[..2], 0.0).unwrap_err();
         assert!(matches!(error, ResumeError::Columns { .. }), "{error}");
     }

@@ -104,24 +104,27 @@ fn full(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     .collect()
 }
 
-/// Remarks on intervals that are not a whole number of given steps.
+/// Remarks on intervals that end behind the run, or are not a whole number of given steps.
 fn intervals(scene: &Scene) -> Vec<String> {
-    let Step::Given(step) = scene.run.step else { return Vec::new() };
     let output = &scene.output;
     let named = [
         ("history_interval", output.history_interval),
         ("frame_interval", output.frame_interval),
         ("checkpoint_interval", output.checkpoint_interval),
     ];
-    let uneven = |interval: f64| ((interval / step).round() * step - interval).abs() > 1e-6 * step;
-    (named.into_iter())
-        .filter_map(|(key, interval)| interval.filter(|interval| uneven(*interval)).map(|interval| (key, interval)))
-        .map(|(key, interval)| {
-            format!(
+    let mut remarks = Vec::new();
+    for (key, interval) in named.into_iter().filter_map(|(key, interval)| Some((key, interval?))) {
+        if let Some(end) = scene.run.end.filter(|end| interval > *end) {
+            remarks.push(format!("[output] {key}: {interval:e} s is longer than the run, which ends at {end:e} s"));
+        } else if let Step::Given(step) = scene.run.step
+            && ((interval / step).round() * step - interval).abs() > 1e-6 * step
+        {
+            remarks.push(format!(
                 "[output] {key}: {interval:e} s is not a whole number of steps of {step:e} s; they are shortened to fit"
-            )
-        })
-        .collect()
+            ));
+        }
+    }
+    remarks
 }
 
 /// On moduli that others would ask to confirm.
@@ -306,9 +309,9 @@ fn passed_through(scene: &Scene) -> Vec<String> {
     present.sort_unstable();
     present.dedup();
     let mut remarks = Vec::new();
-    for boundary in &scene.boundaries {
+    for (index, boundary) in scene.boundaries.iter().enumerate() {
         let Some(material) = boundary.shape.material() else { continue };
-        let bonded = scene.bonds.iter().any(|bond| bond.plane.is_some());
+        let bonded = scene.bonds.iter().any(|bond| bond.plane.is_some_and(|plane| plane.index() == index));
         let lawless = |particle: &&u32| {
             let entry = **particle as usize * count + material.index();
             !scene.contacts.iter().any(|law| law.between[entry])

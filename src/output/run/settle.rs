@@ -2,10 +2,11 @@
 
 use super::meter::Pace;
 use crate::base::words::{counted, plain};
-use crate::engine::simulation::{Description, Simulation};
+use crate::engine::simulation::{ContactRecord, Description, Simulation};
+use crate::laws::contact::PairProperties;
 use crate::output::results::files::{Checkpoint, write_checkpoint};
 use crate::output::results::{Failure, OutputError, Refusal};
-use crate::scene::{AxisMotion, Boundary, Scene, SceneDraft};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, SceneDraft};
 use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::fs;
@@ -25,6 +26,15 @@ const LOOKS_TO_COMPARE: u32 = 400;
 
 /// Part of the smallest ratio before that counts as nearer to rest.
 const NEARER: f64 = 0.8;
+
+/// Looks beyond which nobody would wait.
+const MOST_TO_TELL: f64 = 1e6;
+
+/// Cundall damping of grains: more of it slows them down on their way, less lets them swing.
+const DAMPING: f64 = 0.2;
+
+/// Cundall damping of scenes with bonds, which swing and do not travel.
+const DAMPING_OF_BONDS: f64 = 0.7;
 
 /// Where settling begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +84,8 @@ pub struct Settled {
     pub time: f64,
     /// Unbalanced force over the mean force of the contacts or bonds, the largest of the last looks.
     pub ratio: f64,
+    /// Whether it is the mean force of many steps, since bodies tremble about rest.
+    pub trembles: bool,
     /// The ratio below which settling is done.
     pub tolerance: f64,
     /// Contacts, those with planes included.
@@ -90,10 +102,11 @@ impl std::fmt::Display for Settled {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             formatter,
-            "settled after {} (t = {} s, {:.3} s wall): unbalanced force {:.3e} of the mean {} force, {}, kinetic energy {:.3e} J",
+            "settled after {} (t = {} s, {:.3} s wall): unbalanced force{} {:.3e} of the mean {} force, {}, kinetic energy {:.3e} J",
             counted(self.steps, "step"),
             plain(self.time),
             self.wall_time,
+            if self.trembles { ", in the mean of many steps," } else { "" },
             self.ratio,
             if self.contacts > 0 { "contact" } else { "bond" },
             counted(self.contacts, "contact"),
@@ -124,7 +137,8 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         }
     };
     let steps_before = simulation.state().clock.steps;
-    simulation.damp_rest(order.scene.run.settle_damping);
+    let suits = if order.scene.bonds.is_empty() { DAMPING } else { DAMPING_OF_BONDS };
+    simulation.damp_rest(order.scene.run.settle_damping.unwrap_or(suits));
     let come = match come_to_rest(&mut simulation, &order, watch) {
         Err(Failure::Run(error)) => return Err(error.into()),
         come => come,
@@ -153,6 +167,7 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         steps,
         time,
         ratio,
+        trembles: trembles(order.scene).is_some(),
         tolerance: order.scene.run.settle_tolerance,
         contacts: simulation.contact_count(),
         kinetic_energy: simulation.kinetic_energy(),
@@ -178,6 +193,7 @@ fn come_to_rest(
     let before = simulation.state().clock.steps;
     let mut looks = VecDeque::from(vec![f64::INFINITY; LOOKS]);
     let (mut course, mut pace) = (Course::default(), Pace::default());
+    let mut measure = Measure::of(simulation);
     loop {
         let clock = simulation.state().clock;
         let ratio = looks.iter().copied().fold(0.0, f64::max);
@@ -194,6 +210,7 @@ fn come_to_rest(
                 time: simulation.time(),
                 ratio: latest,
                 tolerance,
+                why: format!("{}{}", course.left_to_go(latest, tolerance), why_not(simulation)),
             });
         }
         if let Some(best) = course.stalled(ratio, simulation) {
@@ -218,12 +235,75 @@ fn come_to_rest(
             return Err(Failure::SettlingInterrupted { kept: kept(order.checkpoint), steps, ratio: latest });
         }
         looks.pop_front();
-        looks.push_back(if simulation.is_filling() { f64::INFINITY } else { unbalanced_force(simulation) });
+        let ratio = measure.ratio(simulation);
+        course.ratios.push(ratio);
+        looks.push_back(if simulation.is_filling() { f64::INFINITY } else { ratio });
     }
+}
+
+/// How the unbalanced force is measured.
+enum Measure {
+    /// As it is at the moment.
+    Moment,
+    /// As the mean of the steps since the last look, by what it did to velocities: where bodies tremble about rest.
+    Mean {
+        /// Velocities at the last look \[m/s\].
+        before: Vec<[f64; 3]>,
+        /// When that was \[s\].
+        time: f64,
+    },
+}
+
+impl Measure {
+    /// What this scene needs.
+    fn of(simulation: &Simulation) -> Self {
+        match trembles(simulation.scene()) {
+            None => Self::Moment,
+            Some(_) => Self::Mean { before: velocities(simulation), time: simulation.time() },
+        }
+    }
+
+    /// Unbalanced force over the mean force of the contacts or bonds, damping apart; 0 where nothing moves by the forces on it.
+    fn ratio(&mut self, simulation: &mut Simulation) -> f64 {
+        let Self::Mean { before, time } = self else { return unbalanced_force(simulation) };
+        let (now, elapsed) = (velocities(simulation), simulation.time() - *time);
+        let particles = &simulation.state().particles;
+        let (mut sum, mut count) = (0.0, 0_usize);
+        for ((slot, now), before) in particles.slot.iter().zip(&now).zip(&*before) {
+            if particles.owner[*slot as usize] == 0 {
+                let change = [0, 1, 2].map(|axis| now[axis] - before[axis]);
+                sum +=
+                    particles.velocity[*slot as usize][3] * change.iter().map(|part| part * part).sum::<f64>().sqrt();
+                count += 1;
+            }
+        }
+        let same = now.len() == before.len();
+        (*before, *time) = (now, simulation.time());
+        match simulation.mean_interaction() {
+            Some(mean) if count > 0 && same => sum / count as f64 / elapsed / mean,
+            _ => unbalanced_force(simulation),
+        }
+    }
+}
+
+/// Velocities of the particles in the order of their numbers \[m/s\].
+fn velocities(simulation: &Simulation) -> Vec<[f64; 3]> {
+    let particles = &simulation.state().particles;
+    let row = |slot: &u32| particles.velocity[*slot as usize];
+    particles.slot.iter().map(|slot| [0, 1, 2].map(|axis| row(slot)[axis])).collect()
+}
+
+/// The law whose rolling friction makes bodies tremble about rest for ever: its torque changes its sign from step to step.
+fn trembles(scene: &Scene) -> Option<&ContactLaw> {
+    let rubs = |pair: &PairProperties| pair.rolling_friction.is_some_and(|friction| friction.get() > 0.0);
+    let rolls = |law: &&ContactLaw| law.choice.rolling.name() == "cdt";
+    scene.contacts.iter().find(rolls).filter(|_| scene.pairs.iter().any(rubs))
 }
 
 /// How settling has gone so far: whether it comes nearer to rest.
 struct Course {
+    /// What each look found.
+    ratios: Vec<f64>,
     /// Looks since the last comparison.
     looks: u32,
     /// When that was \[s\].
@@ -236,7 +316,7 @@ struct Course {
 
 impl Default for Course {
     fn default() -> Self {
-        Self { looks: 0, since: 0.0, best: [f64::INFINITY; 2], idle: 0 }
+        Self { ratios: Vec::new(), looks: 0, since: 0.0, best: [f64::INFINITY; 2], idle: 0 }
     }
 }
 
@@ -253,23 +333,31 @@ impl Course {
         let nearer = now < NEARER * before;
         let elapsed = simulation.time() - self.since;
         let on_their_way = simulation.fastest().is_some_and(|(_, speed, radius)| speed * elapsed > radius);
-        *self =
-            Self { looks: 0, since: simulation.time(), best: [f64::INFINITY, now.min(before)], idle: self.idle + 1 };
+        (self.looks, self.since) = (0, simulation.time());
+        (self.best, self.idle) = ([f64::INFINITY, now.min(before)], self.idle + 1);
         if nearer || !now.is_finite() && on_their_way {
             self.idle = 0;
         }
         (self.idle >= if on_their_way { 10 } else { 2 }).then_some(now.min(before))
     }
+
+    /// How many steps are left at the pace of the later half of the way; nothing where the ratio has not fallen.
+    fn left_to_go(&self, ratio: f64, tolerance: f64) -> String {
+        let half = &self.ratios[self.ratios.len() / 2..];
+        let fallen = half.iter().find(|begun| begun.is_finite()).map_or(0.0, |begun| libm::log(begun / ratio));
+        let left = half.len() as f64 * libm::log(ratio / tolerance) / fallen;
+        if fallen > 0.0 && left.is_finite() && left < MOST_TO_TELL {
+            format!("about {:.0e} steps are left at the pace of late; ", left * f64::from(STEPS_BETWEEN_LOOKS))
+        } else {
+            String::new()
+        }
+    }
 }
 
-/// Why a scene does not come to rest.
+/// Why a scene is not at rest.
 fn why_not(simulation: &Simulation) -> String {
     let scene = simulation.scene();
-    let rolls = |law: &&crate::scene::ContactLaw| law.choice.rolling.name() == "cdt";
-    let rubs = |pair: &crate::laws::contact::PairProperties| {
-        pair.rolling_friction.is_some_and(|friction| friction.get() > 0.0)
-    };
-    if let Some(law) = scene.contacts.iter().find(rolls).filter(|_| scene.pairs.iter().any(rubs)) {
+    if let Some(law) = trembles(scene) {
         return format!(
             "[contact.{}.rolling.cdt] has a torque of constant size that changes its sign from step to step about rest: bodies \
              tremble for ever; settle without it, or with a larger settle_tolerance",
@@ -286,10 +374,18 @@ fn why_not(simulation: &Simulation) -> String {
         );
     }
     match simulation.fastest() {
-        Some((id, speed, radius)) if speed > 0.0 => format!(
-            "it still moves: particle {id} (radius {radius:.3e} m) at {speed:.3e} m/s, fastest of all; a bed that flows, or a \
-             particle that nothing holds, never rests"
-        ),
+        Some((index, speed, radius)) if speed > 0.0 => {
+            let touches = |record: &ContactRecord| [Some(record.first), record.second].contains(&Some(index));
+            let held = match simulation.contacts().iter().filter(|record| touches(record)).count() {
+                0 => "touching nothing".to_owned(),
+                count => format!("with {}", counted(count as u64, "contact")),
+            };
+            format!(
+                "it still moves: particle {} (radius {radius:.3e} m) at {speed:.3e} m/s, fastest of all, {held}; a bed that \
+                 flows, or a particle that nothing holds, never rests",
+                simulation.number(index)
+            )
+        }
         _ => "nothing moves, and still the forces do not balance".to_owned(),
     }
 }

@@ -271,7 +271,8 @@ impl std::fmt::Display for Summary {
             write!(formatter, ", {cost:.1} ns per {of} and step")?;
         }
         write!(formatter, ", {}", counted(self.threads, "thread"))?;
-        self.left_behind.iter().try_for_each(|left| write!(formatter, "\nnot taken along: {left}"))
+        self.left_behind.iter().try_for_each(|left| write!(formatter, "\nnot taken along: {left}"))?;
+        self.remarks.iter().try_for_each(|remark| write!(formatter, "\nremark: {remark}"))
     }
 }
 

@@ -198,6 +198,11 @@ mod tests {
         let arms = (0.25 - 0.5 / 16384.0) / (0.25 - 1.0 / 16384.0);
         assert_eq!(of(law(0.0, 1.0), &wall), [STIFFNESS * arms, damping * arms, 0.0, 0.0]);
         assert_eq!(of(law(0.0, 0.0), &wall), [STIFFNESS, damping, 0.0, 0.0]);
+        // An impact that is foreseen to reach the centre is bounded as one at half of the radius.
+        for overlap in [0.125, 0.25, 0.5] {
+            let deep = Contact { overlap, ..wall };
+            assert_eq!(of(law(0.0, 1.0), &deep), [1.5 * STIFFNESS, 1.5 * damping, 0.0, 0.0]);
+        }
     }
 
     #[test]

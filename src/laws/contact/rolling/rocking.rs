@@ -36,6 +36,9 @@ impl Keys {
     }
 }
 
+/// Overlap over radius up to which the stable step follows the engine's arms at a wall, which have no bound at the centre.
+const DEEPEST: f64 = 0.5;
+
 /// What spring and dashpot of these coefficients \[N m\], \[N m s\] are to the stable step, by 1 or 0 for `torsion` and `engine`.
 pub(super) fn response(
     contact: &Contact,
@@ -44,7 +47,8 @@ pub(super) fn response(
     engine: f64,
 ) -> RollingResponse {
     let at_wall = engine > 0.5 && contact.per_reach <= 0.0;
-    let stretched = if at_wall { spin_at_wall(contact) } else { 1.0 };
+    let overlap = contact.overlap.min(DEEPEST * contact.radius);
+    let stretched = if at_wall { spin_at_wall(&Contact { overlap, ..*contact }) } else { 1.0 };
     let [bending_stiffness, bending_damping] = [stiffness, damping].map(|part| part * stretched);
     let [torsional_stiffness, torsional_damping] = [bending_stiffness, bending_damping].map(|part| part * torsion);
     RollingResponse { bending_stiffness, bending_damping, torsional_stiffness, torsional_damping }

@@ -32,6 +32,8 @@ pub(super) fn body(
             senseless(key, "forces move no axis of it".to_owned());
         } else if key == "inertia" && !(3..6).any(free) {
             senseless(key, "moments turn it about no axis".to_owned());
+        } else if key == "centre" && axes[3..].iter().all(AxisMotion::is_fixed) {
+            senseless(key, "it does not turn".to_owned());
         }
     }
     for (key, supports) in [("stiffness", &written.stiffness), ("damping", &written.damping)] {

@@ -196,7 +196,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         settle_tolerance: table
             .settle_tolerance
             .map_or(defaults.settle_tolerance, crate::base::quantity::Positive::get),
-        settle_damping: table.settle_damping.map_or(defaults.settle_damping, crate::base::quantity::Fraction::get),
+        settle_damping: table.settle_damping.map(crate::base::quantity::Fraction::get),
         max_overlap: table.max_overlap.map_or(defaults.max_overlap, crate::base::quantity::NonNegative::get),
         plane: table.plane,
         central_derivatives: table.central_derivatives.unwrap_or(defaults.central_derivatives),

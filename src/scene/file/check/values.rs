@@ -156,8 +156,8 @@ fn run(draft: &SceneDraft, at: &mut Table) {
         at.positive(key, value.unwrap_or(1.0));
     }
     at.not_negative("max_overlap", run.max_overlap);
-    if !(0.0..=1.0).contains(&run.settle_damping) {
-        at.wrong("settle_damping", format!("{:?}", run.settle_damping), "a number from 0 to 1");
+    if let Some(damping) = run.settle_damping.filter(|damping| !(0.0..=1.0).contains(damping)) {
+        at.wrong("settle_damping", format!("{damping:?}"), "a number from 0 to 1");
     }
     if run.threads == Some(0) {
         at.wrong("threads", "0".to_owned(), "a number of 1 or above");
