@@ -1,5 +1,6 @@
 """A unit takes part in a coupling of preCICE: by a stand-in of the same calls, and by preCICE where it is installed."""
 
+import os
 import subprocess
 import sys
 import threading
@@ -183,8 +184,9 @@ def test_the_real_library_finds_the_same(bed, tmp_path):
     pytest.importorskip("precice", reason="preCICE is not installed: only its stand-in was tried")
     import compare
 
+    environment = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
     started = [
-        subprocess.Popen([sys.executable, "-c", text, MODEL, bed], cwd=tmp_path)
+        subprocess.Popen([sys.executable, "-c", text, MODEL, bed], cwd=tmp_path, env=environment)
         for text in (
             "import sys; sys.path.insert(0, sys.argv[1]); import precice, grains\n"
             "grains.run(precice.Participant('Grains', sys.argv[1] + '/precice-config.xml', 0, 1), sys.argv[2])",
@@ -193,6 +195,10 @@ def test_the_real_library_finds_the_same(bed, tmp_path):
             "numpy.save('rows.npy', rows)",
         )
     ]
-    assert [each.wait(timeout=300) for each in started] == [0, 0]
+    try:
+        assert [each.wait(timeout=300) for each in started] == [0, 0]
+    finally:
+        for each in started:
+            each.kill()
     rows, (expected, _) = np.load(tmp_path / "rows.npy"), compare.couple(bed)
     assert np.abs(rows[:, 1] - expected[:, 1]).max() < 3e-6 * np.abs(expected[:, 1]).max()
