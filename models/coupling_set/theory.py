@@ -54,7 +54,8 @@ class Linear:
         half = moving + 0.5 * length * (force - self.outer * there - self.damping * moving) / self.mass
         end = there + length * half
         (place, speed), force, _ = self.particles((place, speed), there, end, count)
-        after = half + 0.5 * length * (force - self.outer * end - self.damping * half) / self.mass
+        pushed = self.mass * half + 0.5 * length * (force - self.outer * end)
+        after = pushed / (self.mass + 0.5 * length * self.damping)
         return place, speed, end, after, force
 
     def radius(self, count):
