@@ -91,3 +91,25 @@ tangential_stiffness = 4e11
     let told = report(&scene);
     assert!(told["economy"].as_array().unwrap().is_empty(), "{told:#}");
 }
+
+#[test]
+fn no_softer_material_is_told_beside_a_stress_that_the_report_does_not_weigh() {
+    let place = Place::new("strained_cell");
+    let scene = place.at("scene.toml");
+    let still = "[material.glass]\ndensity = 2500.0\nyoungs_modulus = 5.0e7\npoissons_ratio = 0.25\n\
+                 [pair.glass.glass]\nrestitution = 0.7\n[contact.touch.normal.hertz]\n\
+                 [particles.bed]\nmaterial = \"glass\"\n\
+                 lattice = { kind = \"simple_cubic\", radius = 1.0e-3, spacing = 1.9999e-3, counts = [3, 3, 3] }\n\
+                 [cell]\nedges = [[5.9997e-3, 0, 0], [0, 5.9997e-3, 0], [0, 0, 5.9997e-3]]\n";
+    let strained = format!("{still}motion = {{ servo = {{ zz = {{ stress = -1.0e4, max_rate = 1.0 }} }} }}\n");
+    let tells = |text: &str| {
+        fs::write(&scene, text).unwrap();
+        let found = report(&scene);
+        found["economy"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|line| line.as_str().unwrap().contains("youngs_modulus could be"))
+    };
+    assert_eq!([still, strained.as_str()].map(tells), [true, false]);
+}

@@ -8,8 +8,8 @@ use crate::engine::simulation::Simulation;
 use crate::laws::contact::impact::LONGEST_PART;
 use crate::laws::surface::Group;
 use crate::scene::{
-    Accuracy, AxisMotion, Body, Bond, Boundary, InputCourse, NodeMotion, Outside, Particle, Scene, SceneDraft, Shape,
-    Step,
+    Accuracy, AxisMotion, Body, Bond, Boundary, Cell, InputCourse, NodeMotion, Outside, Particle, Scene, SceneDraft,
+    Shape, Step,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -140,10 +140,11 @@ fn as_a_group(scene: &Arc<Scene>, present: &Simulation, bond: &Bond) -> Option<S
 /// over its cross-section, and by the overlaps at the start.
 fn soft_enough(scene: &Scene, present: &Simulation, speed: f64) -> Option<String> {
     let given = |motion: &AxisMotion| motion.is_driven() || motion.takes_force() || motion.takes_load();
+    let is_strained = scene.cell.as_ref().is_some_and(Cell::moves);
     let pushed = scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(given)) || !scene.forces.is_empty();
     let hertzian = |law: &crate::scene::ContactLaw| law.choice.normal.name() == "hertz";
     let is_hertzian = !scene.contacts.is_empty() && scene.contacts.iter().all(hertzian);
-    if pushed || !is_hertzian || !scene.bonds.is_empty() || scene.particles.is_empty() {
+    if pushed || is_strained || !is_hertzian || !scene.bonds.is_empty() || scene.particles.is_empty() {
         return None;
     }
     let effective = |particle: &Particle| {
