@@ -231,4 +231,18 @@ fn trials_of_one_communication_step_are_divided_like_the_first() {
     // The first trial again has its bits.
     let first = force(&mut simulation, 0.0);
     assert_eq!(first, trials[0]);
+    // What comes after another trial is another communication step, though it begins after as many time steps: it has the bits of one
+    // that goes on from the saved state alone.
+    let go_on = |simulation: &mut Simulation| {
+        simulation.set_input(BoundaryIndex(1), 2, -4e-5);
+        simulation.advance_or_roll_back(5e-4).expect("it runs");
+    };
+    go_on(&mut simulation);
+    force(&mut simulation, -4e-5);
+    let other = simulation.state().clone();
+    go_on(&mut simulation);
+    let mut alone = start(&text);
+    alone.restore(&other).unwrap();
+    go_on(&mut alone);
+    assert!(simulation.state() == alone.state(), "another trial's division is taken");
 }

@@ -24,8 +24,8 @@ struct Part {
 /// How a communication step was divided.
 #[derive(Clone, Debug)]
 struct Division {
-    /// Number of the time step after which it began, time then \[s\], and its length \[s\].
-    begun: (u64, f64, f64),
+    /// The clock when it began, whose speed and steps tell one state from others of the same time, and its length \[s\].
+    begun: (Clock, f64),
     /// Its parts.
     parts: Vec<Part>,
 }
@@ -49,7 +49,7 @@ impl Repeats {
     /// Remembers the next communication step, which begins now.
     pub(super) fn record(&mut self, clock: &Clock) {
         self.records = true;
-        self.known.retain(|division| division.begun.0 + MOST as u64 >= clock.steps);
+        self.known.retain(|division| division.begun.0.steps + MOST as u64 >= clock.steps);
         if self.known.len() >= MOST {
             self.known.remove(0);
         }
@@ -57,7 +57,7 @@ impl Repeats {
 
     /// Begins a communication step of this length \[s\]. Returns whether it is one that was made before.
     pub(super) fn begin(&mut self, clock: &Clock, interval: f64) -> bool {
-        let begun = (clock.steps, clock.time, interval);
+        let begun = (*clock, interval);
         let place = self.known.iter().position(|division| division.begun == begun && !division.parts.is_empty());
         self.repeats = place.is_some();
         self.late = false;
