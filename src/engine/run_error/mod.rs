@@ -50,6 +50,14 @@ pub enum RunError {
         /// Why.
         cause: Cause,
     },
+    /// A sum of the energy books ceased to be finite.
+    #[error("what the energy books sum up is not finite at t = {time} s: {cause}", time = plain(*time))]
+    Books {
+        /// Time \[s\].
+        time: f64,
+        /// Why.
+        cause: Cause,
+    },
     /// The centre of a particle is behind a plane, or a surface or a group of particles went over it.
     #[error("particle {id} went through boundary {boundary} at t = {time} s: {cause}", time = plain(*time))]
     Behind {

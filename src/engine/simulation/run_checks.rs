@@ -152,6 +152,14 @@ impl Simulation {
         RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), cause: self.step_or_unidentified() }
     }
 
+    /// Refuses energy books with sums that are not finite.
+    pub(super) fn check_books(&self) -> Result<(), RunError> {
+        if self.state.has_finite_books() {
+            return Ok(());
+        }
+        Err(RunError::Books { time: self.time(), cause: self.step_or_unidentified() })
+    }
+
     /// Finds a particle that a group of particles went over in a time step of this length \[s\].
     pub(super) fn check_groups(&self, step: f64) -> Result<(), RunError> {
         let Some((slot, group)) = self.passing.through_groups(&self.state, step) else { return Ok(()) };
@@ -223,6 +231,7 @@ impl Simulation {
             }
             RunError::StepTooLong { .. }
             | RunError::EnergyGain { .. }
+            | RunError::Books { .. }
             | RunError::CellElsewhere
             | RunError::CellStrain { .. }
             | RunError::CellStep { .. }

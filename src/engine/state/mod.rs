@@ -140,6 +140,23 @@ impl State {
         self.boundaries.iter().map(|boundary| boundary.work).chain(self.cell.iter().map(|cell| cell.work))
     }
 
+    /// Whether every sum of entries of the energy books is finite: that of all their magnitudes is.
+    pub(crate) fn has_finite_books(&self) -> bool {
+        let ledgers = self.ledger.iter().flat_map(|book| {
+            let others = [book.turnover, book.initial_kinetic, book.initial_elastic];
+            book.work.into_iter().chain(others)
+        });
+        let losses = self.losses.iter().flat_map(|book| {
+            let others = [book.given_to_bodies, book.initial_kinetic, book.initial_elastic, book.initial_potential];
+            book.taken.into_iter().chain(book.initial_held).chain(others)
+        });
+        let bonds = self.bonds.iter().flat_map(|list| [list.relaxed, list.damped, list.released]);
+        let net = self.exchange.iter().map(|exchange| &exchange.net);
+        let exchanged = net.flat_map(|net| [net.kinetic, net.elastic, net.potential, net.turnover]);
+        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(self.works());
+        all.map(f64::abs).sum::<f64>().is_finite()
+    }
+
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
     /// The caller sets the energies with which an energy book begins, and the mean loads.
     pub fn begin_counting(&mut self) {
