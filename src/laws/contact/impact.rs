@@ -85,7 +85,8 @@ impl Impact {
         let normal = shallow.normal;
         let mut history = [[0.0; 4]; MOST_HISTORY];
         let force = law.react(row, &mut shallow, &mut history[..law.history().len()], 0.0).force;
-        if force.dot(normal) >= 0.0 {
+        let attracts = force.dot(normal) < 0.0;
+        if !attracts {
             return Self::reaching(OVERLAP, (law, row, constant), body);
         }
         let overlaps = std::iter::successors(Some(OVERLAP), |overlap| Some(2.0 * overlap));
