@@ -170,6 +170,13 @@ def _magnitude(values: Any) -> Any:
     return np.linalg.norm(values, axis=1) if values.ndim == 2 else values.astype(float)
 
 
+def _scale(values: Any) -> tuple[float, float]:
+    """The values of the two ends of the colours: one grain in a hundred may be beyond, so that one does not dim all."""
+    return float(values.min()), float(np.percentile(values, 99.0))
+
+
+#: Outlines of particles, which show on every colour.
+EDGES: dict[str, Any] = {"edgecolors": "#999999", "linewidths": 0.4}
 #: Units of the fields of particles.
 FIELDS = {"velocity": "m/s", "angular_velocity": "rad/s", "force": "N", "torque": "N.m", "mass": "kg", "radius": "m"}
 
@@ -177,7 +184,8 @@ FIELDS = {"velocity": "m/s", "angular_velocity": "rad/s", "force": "N", "torque"
 def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[float, float] | None = None) -> Any:
     """The particles as seen along an axis, coloured by a field: ``velocity``, ``force``, ``set`` and so on.
 
-    ``scale`` gives the values of the two ends of the colours; by default those of this frame.
+    ``scale`` gives the values of the two ends of the colours; by default those of this frame but for its largest
+    hundredth.
     """
     particles = frame.particles
     figure, (panel,) = _figure(height=5.5)
@@ -191,23 +199,25 @@ def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[fl
         kinds = np.unique(values)
         from matplotlib.lines import Line2D
 
+        from matplotlib import colormaps
+
         places = np.searchsorted(kinds, values)
-        colours = np.array([COLOURS[place % len(COLOURS)] for place in range(len(kinds))])
+        # From dark to light: kinds differ in print, too.
+        colours = colormaps["viridis"](np.linspace(0.1, 0.9, len(kinds)))
         order = np.argsort(-VIEWS[view][3] * particles.points[:, VIEWS[view][2]], kind="stable")
-        _circles(panel, particles, view, facecolors=colours[places[order]], edgecolors="#333333", linewidths=0.3)
+        _circles(panel, particles, view, facecolors=colours[places[order]], **EDGES)
         marks = [Line2D([], [], marker="o", linestyle="", color=colours[place]) for place in range(len(kinds))]
         panel.legend(
             marks, [f"{by} {kind}" for kind in kinds], frameon=False, loc="center left", bbox_to_anchor=(1, 0.5)
         )
     else:
         values = _magnitude(values)
-        low, high = scale or (float(values.min()), float(values.max()))
+        low, high = scale or _scale(values)
         factor, unit = _prefixed([low, high], FIELDS.get(by, "1"))
-        drawn = _circles(
-            panel, particles, view, values=factor * values, cmap="viridis", edgecolors="#333333", linewidths=0.3
-        )
+        drawn = _circles(panel, particles, view, values=factor * values, cmap="viridis", **EDGES)
         drawn.set_clim(factor * low, factor * high)
-        figure.colorbar(drawn, ax=panel, label=f"{by} [{unit}]", shrink=0.8)
+        beyond = "max" if values.max() > high else "neither"
+        figure.colorbar(drawn, ax=panel, label=f"{by} [{unit}]", shrink=0.8, extend=beyond)
     panel.set_title(f"t = {frame.time:.4g} s", fontsize=10)
     return figure
 
@@ -295,7 +305,7 @@ def animation(run: Run, path: str | Path, by: str = "velocity", view: str = "y",
     values = [_magnitude(cloud[by]) for cloud in clouds if len(cloud)]
     if not values:
         raise ResultError("animation: expected particles in the frames, found none")
-    scale = (float(min(each.min() for each in values)), float(max(each.max() for each in values)))
+    scale = _scale(np.concatenate(values))
     filled = [cloud for cloud in clouds if len(cloud)]
     limits = [
         (min(float((c.points[:, axis] - c["radius"]).min()) for c in filled),
