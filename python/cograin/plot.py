@@ -197,9 +197,8 @@ def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[fl
     values = particles[by]
     if values.dtype.kind in "iu" and by != "id":
         kinds = np.unique(values)
-        from matplotlib.lines import Line2D
-
         from matplotlib import colormaps
+        from matplotlib.lines import Line2D
 
         places = np.searchsorted(kinds, values)
         # From dark to light: kinds differ in print, too.
