@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from cograin.results import Cloud, Frame, ResultError, Run, Table, read_table, unit_of
+from cograin.results import Cloud, Frame, ResultError, Run, Table, read_table
 
 #: Colours after Okabe and Ito, in an order in which neighbours differ in lightness, too.
 COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#000000"]
@@ -64,14 +64,14 @@ def _interesting(table: Table) -> dict[str, list[str]]:
         spread = float(finite.max() - finite.min())
         is_mean = ".mean_" in name and name.replace(".mean_", ".") in table
         if spread > 0.0 and not is_mean and not name.endswith((".residual", ".physical_residual")):
-            key = unit_of(name) if unit_of(name) != "1" else name
+            key = table.unit_of(name) if table.unit_of(name) != "1" else name
             groups.setdefault(key, []).append((spread, name))
     chosen = {}
     for key, columns in groups.items():
         columns.sort(reverse=True)
         chosen[key] = [name for spread, name in columns if spread > 0.01 * columns[0][0]][:MOST_LINES]
     # What has a unit comes before counts and ratios.
-    return dict(sorted(chosen.items(), key=lambda group: unit_of(group[1][0]) == "1"))
+    return dict(sorted(chosen.items(), key=lambda group: table.unit_of(group[1][0]) == "1"))
 
 
 def history(table: Table, columns: Sequence[str] | None = None) -> Any:
@@ -82,13 +82,13 @@ def history(table: Table, columns: Sequence[str] | None = None) -> Any:
         groups = {}
         for name in columns:
             table[name]  # refuses an unknown one by name
-            groups.setdefault(unit_of(name) if unit_of(name) != "1" else name, []).append(name)
+            groups.setdefault(table.unit_of(name) if table.unit_of(name) != "1" else name, []).append(name)
     if not groups:
         raise ResultError("expected a column that changes over time, found none")
     figure, panels = _figure(len(groups), height=2.3)
     long, second = _prefixed(table["time"], "s")
     for panel, names in zip(panels, groups.values(), strict=True):
-        unit = unit_of(names[0])
+        unit = table.unit_of(names[0])
         factor, shown = _prefixed([table[name] for name in names], unit)
         for place, name in enumerate(names):
             style = {"color": COLOURS[place % len(COLOURS)], "linestyle": LINES[place % len(LINES)]}
@@ -281,9 +281,10 @@ def cracks(run: Run, view: str = "y") -> Any:
         chosen = np.array([row["cause"] == cause for row in rows])
         colour, mark = COLOURS[place % len(COLOURS)], "o^sDv"[place % 5]
         where.scatter(points[chosen, across], points[chosen, up], s=9, color=colour, marker=mark, label=cause, zorder=3)
-        moments = np.sort(times[chosen])
-        line = LINES[place % len(LINES)]
-        when.step(long * moments, np.arange(1, len(moments) + 1), where="post", color=colour, linestyle=line)
+        moments = np.append(np.sort(times[chosen]), times.max())
+        counts = np.append(np.arange(1, len(moments)), len(moments) - 1)
+        style = {"color": colour, "linestyle": LINES[place % len(LINES)], "marker": mark, "markersize": 4.0}
+        when.step(long * moments, counts, where="post", markevery=max(1, len(moments) // 8), **style)
     figure.legend(loc="outside lower center", ncols=len(causes), frameon=False, markerscale=2.0)
     when.set_xlabel(f"time [{second}]")
     when.set_ylabel("broken bonds")

@@ -57,13 +57,19 @@ UNITS = {
     "mass": "kg",
     "mass_flow": "kg/s",
     "stress": "Pa",
+    "mean_stress": "Pa",
+    "target_stress": "Pa",
+    "volume": "m3",
     "temperature": "m2/s2",
     "stiffness": "N/m",
 }
 
 
 def unit_of(name: str) -> str:
-    """The unit of a variable of a unit or a column of a history; ``1`` for counts and ratios."""
+    """The unit of a variable of a unit or a column of a history by its name; ``1`` for counts and ratios.
+
+    Names of derived outputs and ``<insertion>.rate`` tell none: `Table.unit_of` knows those of a run or a record.
+    """
     first, *words = name.split(".")
     return next((UNITS[word] for word in reversed(words) if word in UNITS), FIRST.get(first, "1"))
 
@@ -73,10 +79,11 @@ class ResultError(Exception):
 
 
 class Table(Mapping[str, Vector]):
-    """Columns of numbers by name, each with its unit: ``table["lid.force.z"]``."""
+    """Columns of numbers by name, each with its unit: ``table["lid.force.z"]``, ``table.unit_of("lid.force.z")``."""
 
-    def __init__(self, columns: Mapping[str, Any]) -> None:
+    def __init__(self, columns: Mapping[str, Any], units: Mapping[str, str] | None = None) -> None:
         self._columns = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
+        self._units = dict(units or {})
 
     def __getitem__(self, name: str) -> Vector:
         try:
@@ -95,8 +102,12 @@ class Table(Mapping[str, Vector]):
         return len(self._columns)
 
     def __repr__(self) -> str:
-        names = [name if unit_of(name) == "1" else f"{name} [{unit_of(name)}]" for name in self]
+        names = [name if self.unit_of(name) == "1" else f"{name} [{self.unit_of(name)}]" for name in self]
         return f"<Table of {self.rows} rows: {_listed(names)}>"
+
+    def unit_of(self, name: str) -> str:
+        """The unit of a column: what the run or the record says, else what the name tells."""
+        return self._units.get(name) or unit_of(name)
 
     @property
     def rows(self) -> int:
@@ -108,7 +119,7 @@ class Table(Mapping[str, Vector]):
         import pandas
 
         frame = pandas.DataFrame(self._columns)
-        frame.attrs["units"] = {name: unit_of(name) for name in self}
+        frame.attrs["units"] = {name: self.unit_of(name) for name in self}
         return frame.set_index("time") if "time" in self else frame
 
     def to_xarray(self) -> Any:
@@ -116,9 +127,11 @@ class Table(Mapping[str, Vector]):
         import xarray
 
         time = "time" if "time" in self else "row"
-        variables = {name: (time, values, {"units": unit_of(name)}) for name, values in self.items() if name != time}
+        variables = {
+            name: (time, values, {"units": self.unit_of(name)}) for name, values in self.items() if name != time
+        }
         at = self._columns.get("time", np.arange(self.rows, dtype=float))
-        return xarray.Dataset(variables, coords={time: (time, at, {"units": unit_of(time)})})
+        return xarray.Dataset(variables, coords={time: (time, at, {"units": self.unit_of(time)})})
 
 
 def _listed(names: list[str], most: int = 8) -> str:
@@ -126,8 +139,8 @@ def _listed(names: list[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
-def read_table(path: str | Path) -> Table:
-    """Reads a CSV file of numbers: a history, or the record of a coupled run."""
+def read_table(path: str | Path, units: Mapping[str, str] | None = None) -> Table:
+    """Reads a CSV file of numbers: a history, or the record of a coupled run. Names tell units, ``units`` others."""
     path = Path(path)
     try:
         with path.open(newline="", encoding="utf-8") as text:
@@ -145,7 +158,7 @@ def read_table(path: str | Path) -> Table:
     except ValueError as error:
         raise ResultError(f"{path}: expected numbers: {error}") from None
     values = np.array(numbers, dtype=float).reshape(len(rows), len(names))
-    return Table({name: values[:, place] for place, name in enumerate(names)})
+    return Table({name: values[:, place] for place, name in enumerate(names)}, units)
 
 
 @dataclass(repr=False)
@@ -250,8 +263,12 @@ class Run:
 
     @property
     def history(self) -> Table:
-        """`history.csv`."""
-        return read_table(self.folder / "history.csv")
+        """`history.csv`, with the units that `summary.json` has once the run has ended."""
+        try:
+            units = self.summary.get("units")
+        except ResultError:
+            units = None
+        return read_table(self.folder / "history.csv", units)
 
     @property
     def summary(self) -> dict[str, Any]:
