@@ -139,6 +139,11 @@ def _listed(names: list[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
+def reason(error: Exception) -> str:
+    """Why a file could not be read, without its name."""
+    return (error.strerror or str(error)) if isinstance(error, OSError) else str(error)
+
+
 def read_table(path: str | Path, units: Mapping[str, str] | None = None) -> Table:
     """Reads a CSV file of numbers: a history, or the record of a coupled run. Names tell units, ``units`` others."""
     path = Path(path)
@@ -146,7 +151,7 @@ def read_table(path: str | Path, units: Mapping[str, str] | None = None) -> Tabl
         with path.open(newline="", encoding="utf-8") as text:
             lines = list(csv.reader(text))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ResultError(f"{path}: {error}") from None
+        raise ResultError(f"{path}: expected a table of numbers (CSV): {reason(error)}") from None
     if not lines or len(set(lines[0])) != len(lines[0]):
         raise ResultError(f"{path}: expected a heading with a name for each column, found {lines[:1]}")
     names, rows = lines[0], lines[1:]
@@ -208,7 +213,7 @@ def read_frame(path: str | Path) -> Cloud:
             group.tag: {array.get("Name", ""): _array(array) for array in group.iter("DataArray")} for group in piece
         }
     except (OSError, ElementTree.ParseError, ValueError, KeyError) as error:
-        raise ResultError(f"{path}: expected a frame of cograin: {error}") from None
+        raise ResultError(f"{path}: expected a frame of cograin: {reason(error)}") from None
     points = next(iter(found.get("Points", {}).values()), np.empty((0, 3))).reshape(-1, 3)
     structure = found.get("Cells", {})
     corners = structure.get("connectivity", np.empty(0, dtype=int)).astype(np.int64)
@@ -277,7 +282,7 @@ class Run:
         try:
             read: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
-            raise ResultError(f"{path}: {error}") from None
+            raise ResultError(f"{path}: {reason(error)}") from None
         return read
 
     @property

@@ -98,6 +98,12 @@ count_rate = 0.0
     assert [record.table.unit_of(name) for name in ("feed.rate", "feed.mass", "length")] == ["1/s", "kg", "s"]
 
 
+def test_a_file_that_is_not_there_is_told_in_words(tmp_path):
+    with pytest.raises(ResultError) as error:
+        read_table(tmp_path / "no.csv")
+    assert str(error.value) == f"{tmp_path}/no.csv: expected a table of numbers (CSV): No such file or directory"
+
+
 def test_what_is_shown_at_a_prompt_fits_there(folder):
     run = Run(folder)
     assert repr(run) == f"<Run in {folder}: .history, .summary, .frames, .breakage>"
