@@ -5,6 +5,7 @@ mod probes;
 pub use probes::{Sight, sights};
 
 use crate::base::number::Vector;
+use crate::engine::clumps;
 use crate::engine::simulation::Simulation;
 use crate::engine::state::State;
 use crate::engine::state::contacts::is_told;
@@ -53,7 +54,7 @@ impl Coordination {
 
 /// The particles in each region of the scene.
 pub fn contents(simulation: &Simulation) -> Vec<Content> {
-    simulation.scene().regions.iter().map(|region| content(region, simulation.state())).collect()
+    simulation.scene().regions.iter().map(|region| content(region, simulation)).collect()
 }
 
 /// Contacts of the particles in each region of the scene.
@@ -104,7 +105,8 @@ fn shift(region: &Region, state: &State) -> Vector {
 }
 
 /// The particles in a region.
-fn content(region: &Region, state: &State) -> Content {
+fn content(region: &Region, simulation: &Simulation) -> Content {
+    let (scene, state) = (simulation.scene(), simulation.state());
     let (particles, shift) = (&state.particles, shift(region, state));
     let mut inside = Vec::new();
     let mut content = Content::default();
@@ -112,7 +114,7 @@ fn content(region: &Region, state: &State) -> Content {
         let radius = position[3];
         let volume = region.shape.volume_of_sphere(Vector::from(*position) - shift, radius);
         if volume > 0.0 {
-            let mass = particles.velocity[slot][3] * (volume / sphere_volume(radius));
+            let mass = clumps::mass_of(scene, particles, slot) * (volume / sphere_volume(radius));
             content.solid += volume;
             content.mass += mass;
             for axis in 0..3 {

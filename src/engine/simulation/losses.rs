@@ -1,6 +1,7 @@
 //! The physical energy book, opened and read.
 
 use super::Simulation;
+use crate::engine::clumps;
 use crate::engine::energy::losses::{self, StoredEnergy};
 use crate::engine::state::Loss;
 
@@ -11,11 +12,17 @@ impl Simulation {
             return;
         }
         let (kinetic, elastic, StoredEnergy(held)) = (self.kinetic_energy(), self.elastic_energy(), self.held());
-        let potential = losses::potential(&self.state, &self.fields);
+        let potential = self.potential();
         if let Some(losses) = &mut self.state.losses {
             (losses.initial_kinetic, losses.initial_elastic) = (kinetic, elastic);
             (losses.initial_potential, losses.initial_held) = (potential, held);
         }
+    }
+
+    /// Potential of gravity and applied forces on what moves by the forces on it \[J\].
+    fn potential(&self) -> f64 {
+        losses::potential(&self.state, &self.fields)
+            + clumps::potential(self.clumps.as_ref(), &self.state, &self.fields)
     }
 
     /// What causes of loss hold and may give back.
@@ -43,7 +50,7 @@ impl Simulation {
     /// The same, where kinetic and elastic energy and losses are known \[J\].
     pub fn physical_residual_beside(&self, kinetic: f64, elastic: f64, losses: &[f64; Loss::COUNT]) -> Option<f64> {
         let book = self.state.losses.as_ref()?;
-        let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
+        let potential = self.potential() - book.initial_potential;
         let given: f64 = self.state.works().sum();
         let grown = kinetic - book.initial_kinetic + elastic - book.initial_elastic + potential;
         Some(grown + losses.iter().sum::<f64>() - given - book.given_to_bodies)
@@ -57,7 +64,7 @@ impl Simulation {
         let residual = self.physical_residual_beside(kinetic, elastic, &losses)?;
         let damping = [Loss::NormalDamping, Loss::TangentialDamping, Loss::BondDamping, Loss::GlobalDamping];
         let given: f64 = damping.into_iter().map(|loss| (-losses[loss as usize]).max(0.0)).sum();
-        let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
+        let potential = self.potential() - book.initial_potential;
         let works = self.state.works();
         let parts = [book.initial_kinetic, book.initial_elastic, potential, book.given_to_bodies];
         let scale = parts.into_iter().chain(works).chain(losses).map(f64::abs).sum();
