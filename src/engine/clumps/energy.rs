@@ -16,24 +16,6 @@ pub(crate) fn kinetic(clumps: &Clumps) -> f64 {
     .sum()
 }
 
-/// Potential of gravity and applied forces on all clumps \[J\].
-pub(crate) fn potential(bodies: Option<&ClumpBodies>, state: &State, fields: &Fields) -> f64 {
-    let Some(bodies) = bodies else { return 0.0 };
-    let (clumps, particles) = (&state.clumps, &state.particles);
-    let of = |clump: usize| {
-        let centre = Vector::from(clumps.position[clump]);
-        let weight = Vector::from(fields.weight(clumps.velocity[clump][3])).dot(centre);
-        let (first, arms) = bodies.spheres(clump);
-        let applied = |index: usize| {
-            let place = Vector::from(particles.position[particles.slot[index] as usize]);
-            Vector::from(fields.applied(index as u32)).dot(place)
-        };
-        let applied = if fields.applies() { (first..first + arms.len()).map(applied).sum() } else { 0.0 };
-        -(weight + applied)
-    };
-    (0..bodies.count()).map(of).sum()
-}
-
 /// Notes the loads on the spheres of clumps so far, of which the last are of this kind.
 pub(crate) fn note_loads(bodies: Option<&ClumpBodies>, state: &mut State, source: Source) {
     let State { particles, clumps, ledger: Some(ledger), .. } = state else { return };

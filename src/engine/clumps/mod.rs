@@ -15,7 +15,7 @@ mod energy;
 mod loads;
 mod strikers;
 
-pub(crate) use energy::{book_losses, book_work, kinetic, note_loads, potential};
+pub(crate) use energy::{book_losses, book_work, kinetic, note_loads};
 pub(crate) use loads::{force_on, mass_of};
 pub(crate) use strikers::Striker;
 

@@ -1,7 +1,6 @@
 //! The physical energy book, opened and read.
 
 use super::Simulation;
-use crate::engine::clumps;
 use crate::engine::energy::losses::{self, StoredEnergy};
 use crate::engine::state::Loss;
 
@@ -12,17 +11,11 @@ impl Simulation {
             return;
         }
         let (kinetic, elastic, StoredEnergy(held)) = (self.kinetic_energy(), self.elastic_energy(), self.held());
-        let potential = self.potential();
+        let potential = losses::potential(&self.state, &self.fields);
         if let Some(losses) = &mut self.state.losses {
             (losses.initial_kinetic, losses.initial_elastic) = (kinetic, elastic);
             (losses.initial_potential, losses.initial_held) = (potential, held);
         }
-    }
-
-    /// Potential of gravity and applied forces on what moves by the forces on it \[J\].
-    fn potential(&self) -> f64 {
-        losses::potential(&self.state, &self.fields)
-            + clumps::potential(self.clumps.as_ref(), &self.state, &self.fields)
     }
 
     /// What causes of loss hold and may give back.
@@ -50,7 +43,7 @@ impl Simulation {
     /// The same, where kinetic and elastic energy and losses are known \[J\].
     pub fn physical_residual_beside(&self, kinetic: f64, elastic: f64, losses: &[f64; Loss::COUNT]) -> Option<f64> {
         let book = self.state.losses.as_ref()?;
-        let potential = self.potential() - book.initial_potential;
+        let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
         let given: f64 = self.state.works().sum();
         let grown = kinetic - book.initial_kinetic + elastic - book.initial_elastic + potential;
         Some(grown + losses.iter().sum::<f64>() - given - book.given_to_bodies)
@@ -64,7 +57,7 @@ impl Simulation {
         let residual = self.physical_residual_beside(kinetic, elastic, &losses)?;
         let damping = [Loss::NormalDamping, Loss::TangentialDamping, Loss::BondDamping, Loss::GlobalDamping];
         let given: f64 = damping.into_iter().map(|loss| (-losses[loss as usize]).max(0.0)).sum();
-        let potential = self.potential() - book.initial_potential;
+        let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
         let works = self.state.works();
         let parts = [book.initial_kinetic, book.initial_elastic, potential, book.given_to_bodies];
         let scale = parts.into_iter().chain(works).chain(losses).map(f64::abs).sum();

@@ -136,6 +136,12 @@ impl State {
         if self.clumps.is_empty() { None } else { self.particles.group(slot)?.checked_sub(self.boundaries.len()) }
     }
 
+    /// Whether two particles (slots) are spheres of one clump.
+    pub(crate) fn are_of_one_clump(&self, a: u32, b: u32) -> bool {
+        let of = |slot: u32| self.clump(slot as usize);
+        of(a).is_some() && of(a) == of(b)
+    }
+
     /// Where the particle in a slot has come to without being brought back into a periodic cell; elsewhere where it is \[m\].
     pub(crate) fn unwrapped(&self, slot: usize) -> [f64; 3] {
         let [x, y, z, _] = self.particles.position[slot];

@@ -27,7 +27,7 @@ struct Account {
 /// Change of momentum and the impulses that should make it \[N s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MomentumBalance {
-    /// Change of momentum of the particles and groups that move freely \[N s\].
+    /// Change of momentum of the particles, clumps and groups that move freely \[N s\].
     pub change: [f64; 3],
     /// Impulse of gravity \[N s\].
     pub gravity: [f64; 3],

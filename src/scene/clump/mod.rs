@@ -8,7 +8,7 @@ mod union;
 
 pub(in crate::scene) use keys::{ClumpKeys, OrientationKey, unit};
 
-use super::{Mistake, Particle, SceneDraft};
+use super::{Mistake, Particle, ParticleShape, SceneDraft};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
 
@@ -64,6 +64,12 @@ impl ClumpShape {
     pub fn arm(&self, sphere: usize) -> [f64; 3] {
         let way = Vector::from(self.spheres[sphere].0) - self.centre.into();
         Quaternion::from_row(self.axes).conjugate().turn(way).to_array()
+    }
+
+    /// Volume of the union over the sum of those of the spheres.
+    pub fn fullness(&self) -> f64 {
+        let sum: f64 = self.spheres.iter().map(|(_, radius)| ParticleShape::Sphere.volume(*radius)).sum();
+        self.volume / sum
     }
 
     /// Radius of the smallest sphere about the mass centre that holds all of it \[m\].
@@ -197,9 +203,9 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     if scene.domain.is_some() && scene.outside == super::Outside::Remove {
         refuse("domain".to_owned(), "outside", "clumps cannot be removed yet");
     }
-    let is_of_clump = |set| scene.particles.iter().zip(&of).any(|(it, clump)| it.set == set && clump.is_some());
-    for bond in scene.bonds.iter().filter(|bond| bond.between.iter().any(|&set| is_of_clump(set))) {
-        refuse(format!("bond.{}", bond.name), "between", "spheres of clumps cannot be bonded yet");
+    let rigid = |[a, b]: &[u32; 2]| of[*a as usize].is_some() && of[*a as usize] == of[*b as usize];
+    for bond in scene.bonds.iter().filter(|bond| bond.pairs.iter().any(rigid)) {
+        refuse(format!("bond.{}", bond.name), "create", "it bonds two spheres of one clump");
     }
     for damping in &scene.damping {
         let differs = |clump: &Clump| {
