@@ -172,6 +172,28 @@ class Partners:
         for partner, place in self._each():
             _kicked(partner).kick(begin[place], end[place], step)
 
+    def predict_quadratically(self, force: Vector, slope: Vector, step: Step) -> tuple[Vector, Vector]:
+        """Displacements at the end \\[m\\] and accelerations \\[m/s²\\] of all; changes nothing."""
+        each = [_quadratic(one).predict_quadratically(force[place], slope[place], step) for one, place in self._each()]
+        ends, accelerations = zip(*each, strict=True)
+        return np.concatenate(ends), np.concatenate(accelerations)
+
+    def quadratic_compliance(self, step: Step) -> Matrix:
+        """Change of displacements and accelerations per change of mean and slope of the force, a block for each."""
+        size = self._places[-1].stop
+        found = np.zeros((2, size, 2, size))
+        for partner, place in self._each():
+            own = len(partner.displacement)
+            block = _quadratic(partner).quadratic_compliance(step)
+            found[:, place, :, place] = block.reshape(2, own, 2, own)
+        return found.reshape(2 * size, 2 * size)
+
+    def advance_quadratically(self, force: tuple[Vector, Vector], motion: tuple[Vector, Vector], step: Step) -> None:
+        """Makes the step with all, under mean and slope of the force, along these displacements and accelerations."""
+        for partner, place in self._each():
+            own = (force[0][place], force[1][place]), (motion[0][place], motion[1][place])
+            _quadratic(partner).advance_quadratically(*own, step)
+
     @property
     def units(self) -> list[Unit]:
         """Those of all."""
@@ -197,4 +219,11 @@ def _kicked(partner: Partner) -> KickedPartner:
     """A partner that velocity Verlet can step; others are refused."""
     if not isinstance(partner, KickedPartner):
         raise ValueError(f"{type(partner).__name__}: velocity Verlet needs a partner with drift and kick")
+    return partner
+
+
+def _quadratic(partner: Any) -> Any:
+    """A partner that moves along a parabola; others are refused."""
+    if not hasattr(partner, "predict_quadratically"):
+        raise ValueError(f"{type(partner).__name__}: quadratic motion needs a partner with predict_quadratically")
     return partner

@@ -1,5 +1,7 @@
 """The exchange of higher order: order, energy, what it refuses."""
 
+import copy
+
 import numpy as np
 import pytest
 from conftest import CHAIN, DROP
@@ -9,8 +11,10 @@ from cograin import (
     Interface,
     Newton,
     Oscillator,
+    Partners,
     Quadratic,
     QuasiNewton,
+    RigidBody,
     Secant,
     Step,
     Structure,
@@ -93,6 +97,25 @@ def test_two_directions_are_coupled_in_fourth_order(opened):
     assert errors[1] < 2e-4 * abs(exact[2])
 
 
+def test_two_partners_move_as_one_structure_of_both(opened):
+    def walls():
+        left, right = Oscillator(1.0, 5.0, 0.3), Structure([2.0], [30.0])
+        right.place(velocity=[0.01])
+        return left, right
+
+    both = Structure([1.0, 2.0], np.diag([5.0, 30.0]), np.diag([0.3, 0.0]))
+    both.place(velocity=[0.0, 0.01])
+    step = Step(0.0, 4e-2, 4e-2)
+    assert (Partners(*walls()).quadratic_compliance(step) == both.quadratic_compliance(step)).all()
+    for make in (QuasiNewton, lambda **named: Newton("differences", **named)):
+        ends = []
+        for partner in (copy.deepcopy(both), Partners(*walls())):
+            exchange = Quadratic(make(tolerance=Tolerance(1e-13)))
+            record = Coupling(Interface(opened(bent(CHAIN)), ENDS), partner, exchange, 4e-2).run(0.4)
+            ends.append(np.array([record[name] for name in ENDS]))
+        assert np.abs(ends[1] - ends[0]).max() <= 1e-10 * np.abs(ends[0]).max()
+
+
 def test_any_repeated_exchange_finds_both_numbers(opened):
     ends = []
     for make in (QuasiNewton, lambda **named: Newton("differences", **named)):
@@ -113,5 +136,8 @@ def test_what_cannot_move_along_parabolas_is_refused(opened):
         begin(bent(DROP), Oscillator(1.0, 1e4, substeps=3))
     with pytest.raises(ValueError, match="expected 1 substep of the units, found 2"):
         begin(bent(DROP), Oscillator(1.0, 1e4), substeps=2)
+    body = RigidBody(1.0, [0.1, 0.1, 0.1], at=[[0.0, 0.0, 0.0]])
+    with pytest.raises(ValueError, match="RigidBody: quadratic motion needs a partner with predict_quadratically"):
+        Partners(body).predict_quadratically(np.zeros(6), np.zeros(6), Step(0.0, 1.0, 1.0))
     with pytest.raises(ValueError, match="a secant is for one direction"):
         begin(bent(DROP), Oscillator(1.0, 1e4), Quadratic(Secant()))

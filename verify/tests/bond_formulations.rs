@@ -1,5 +1,5 @@
 //! How far the formulations are from `engine_exact` on the stored cases, and what that difference does as the step is
-//! halved: the table in `docs/bonds.md`.
+//! halved: the table in `bond_formulations.md`.
 
 use cograin::bond::keys::FormulationChoice;
 use cograin_verify::{Options, find, replay};
