@@ -116,7 +116,8 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
         let volume = region.shape.volume_of_sphere(Vector::from(*position) - shift, radius);
         if volume > 0.0 {
             let mass = clumps::mass_of(scene, particles, slot) * (volume / sphere_volume(radius));
-            content.solid += volume * state.clump(slot).map_or(1.0, |clump| fullness[scene.clumps[clump].shape as usize]);
+            content.solid +=
+                volume * state.clump(slot).map_or(1.0, |clump| fullness[scene.clumps[clump].shape as usize]);
             content.mass += mass;
             for axis in 0..3 {
                 content.velocity[axis] += mass * particles.velocity[slot][axis];

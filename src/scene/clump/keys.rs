@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer};
 use std::fmt;
 
 /// Most spheres that a clump may have.
-const MOST_SPHERES: usize = 100_000;
+const MOST_SPHERES: usize = 256;
 
 /// `[clump.<name>]`
 #[derive(Clone, Debug, Deserialize)]

@@ -28,8 +28,8 @@ const PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]]
 /// Points of the rule of Gauss and Legendre.
 const POINTS: usize = 16;
 
-/// Pieces between two latitudes, of the result and of what its error is estimated by.
-const PIECES: [usize; 2] = [16, 8];
+/// Pieces of all latitudes together, and between two of them at most, of the result; its error is estimated by half as many.
+const PIECES: [usize; 2] = [128, 16];
 
 /// A sphere: its centre and radius \[m\].
 type Sphere = ([f64; 3], f64);
@@ -44,10 +44,10 @@ pub(super) fn moments(spheres: &[Sphere]) -> (Volume, f64) {
         return (spheres.iter().fold(Volume::default(), |sum, sphere| whole(sum, sphere)), 0.0);
     }
     let rule = gauss();
-    let [fine, coarse] = PIECES.map(|pieces| {
+    let [fine, coarse] = [1, 2].map(|coarser| {
         let mut sum = Volume::default();
         for (place, _) in spheres.iter().enumerate() {
-            exposed(spheres, place, pieces, &rule, &mut sum);
+            exposed(spheres, place, coarser, &rule, &mut sum);
         }
         sum
     });
@@ -90,8 +90,8 @@ fn gauss() -> Vec<[f64; 2]> {
     (0..POINTS).map(point).collect()
 }
 
-/// Adds the integrals over what no other sphere covers of one.
-fn exposed(spheres: &[Sphere], own: usize, pieces: usize, rule: &[[f64; 2]], sum: &mut Volume) {
+/// Adds the integrals over what no other sphere covers of one, by so many times fewer pieces.
+fn exposed(spheres: &[Sphere], own: usize, coarser: usize, rule: &[[f64; 2]], sum: &mut Volume) {
     let (centre, radius) = spheres[own];
     let mut caps: Vec<Cap> = Vec::new();
     for (place, (other, reach)) in spheres.iter().enumerate().filter(|(place, _)| *place != own) {
@@ -116,6 +116,7 @@ fn exposed(spheres: &[Sphere], own: usize, pieces: usize, rule: &[[f64; 2]], sum
         }
     }
     latitudes.sort_by(f64::total_cmp);
+    let pieces = (PIECES[0] / latitudes.len()).clamp(2, PIECES[1]) / coarser;
     for pair in latitudes.windows(2).filter(|pair| pair[1] > pair[0]) {
         let (middle, half) = (0.5 * (pair[0] + pair[1]), 0.5 * (pair[1] - pair[0]));
         let width = PI / pieces as f64;

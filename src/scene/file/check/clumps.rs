@@ -63,6 +63,10 @@ impl SetReader<'_> {
             let expected = "leave density out".to_owned();
             faults.add(&self.table, "density", Mistake::InvalidCombination { what, expected });
         }
+        let all = (placed.len() * shape.spheres.len()) as f64;
+        if let Some(expected) = packing::too_many(all) {
+            faults.add(&self.table, "clump", Mistake::Unexpected { found: format!("{all} spheres"), expected });
+        }
         if faults.count() > before {
             return None;
         }
