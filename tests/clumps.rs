@@ -1,6 +1,7 @@
 //! Clumps: rigid bodies of several spheres, against closed forms, against groups, and their books and bits.
 
 use crate::support::{read, start};
+use cograin::interface::{Derivatives, Interface, Value};
 use cograin::lanes::Width;
 use cograin::simulation::Simulation;
 use std::sync::Arc;
@@ -360,17 +361,17 @@ fn threads_lanes_saving_and_restoring_change_no_bit() {
         "[output]\nenergy = true\nlosses = true\n[damping.all]\nlinear = 0.1\nangular = 0.1\ngravity_damped = false";
     for more in ["", books] {
         let mut one = start(&bed(1, 1.0, more));
-        one.advance(0.004).expect("it runs");
+        one.advance(0.008).expect("it runs");
         let saved = one.state().clone();
-        one.advance(0.004).expect("it runs");
+        one.advance(0.008).expect("it runs");
         for (threads, width) in [(2, Width::widest()), (3, Width::Least), (1, Width::Four)] {
             let mut other = start(&bed(threads, 1.0, more));
             other.set_width(width);
-            other.advance(0.004).expect("it runs");
+            other.advance(0.008).expect("it runs");
             assert_eq!(bits(&other), saved.fingerprint(), "{threads} threads, {width:?}");
             other.advance(0.001).expect("it runs");
             other.restore(&saved).expect("its own state");
-            other.advance(0.004).expect("it runs");
+            other.advance(0.008).expect("it runs");
             assert_eq!(bits(&other), bits(&one), "{threads} threads, {width:?}, restored");
         }
         assert!(one.contact_count() > 100, "{} contacts", one.contact_count());
@@ -537,6 +538,36 @@ box = [[-0.1, -0.1, -0.1], [0.1, 0.1, 0.1]]
     assert!((content.solid / volume - 1.0).abs() < 1e-12, "{} m³, {volume} expected", content.solid);
     assert!((content.mass / (2000.0 * volume) - 1.0).abs() < 1e-12, "{} kg", content.mass);
     assert!(apart(content.velocity, [0.0, 0.4, 0.0]) < 1e-15, "{:?}", content.velocity);
+}
+
+#[test]
+fn a_derivative_is_the_difference_of_two_steps_and_leaves_no_trace() {
+    let text = bed(1, 1.0, "").replace(
+        "material = \"a\"\n[boundary.west]",
+        "material = \"a\"\nmotion = { driven = [\"z\"] }\n[boundary.west]",
+    );
+    let mut simulation = start(&text);
+    for _ in 0..40 {
+        simulation.advance_or_roll_back(5e-4).expect("it runs");
+    }
+    let interface = Interface::of(simulation.scene());
+    let [force, input] =
+        ["floor.mean_force.z", "floor.displacement.z"].map(|name| interface.find(name).expect("it is there"));
+    let state = simulation.state().clone();
+    let found = interface
+        .derivatives(&mut simulation, &mut Derivatives::default(), (&[force], &[(input, 1.0)]))
+        .expect("there is a derivative")[0];
+    assert_eq!(simulation.state().fingerprint(), state.fingerprint());
+    let mut at = |way: f64| {
+        simulation.restore(&state).expect("its own state");
+        interface.set(&mut simulation, input, Value::Real(way)).expect("an input");
+        simulation.advance_or_roll_back(5e-4).expect("it runs");
+        interface.value(&simulation, force).number()
+    };
+    let way = 1e-9;
+    let expected = (at(way) - at(-way)) / (2.0 * way);
+    assert!(expected < -1.0, "{expected} N/m: clumps stand on the floor");
+    assert!((found / expected - 1.0).abs() < 1e-3, "{found} N/m, {expected} N/m by differences");
 }
 
 #[test]
