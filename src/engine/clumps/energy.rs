@@ -52,7 +52,8 @@ fn of_fields((bodies, clump): (&ClumpBodies, usize), state: &State, fields: &Fie
 
 /// Books what forces do to clumps in the half kick that is about to be made.
 pub(crate) fn book_work(bodies: Option<&ClumpBodies>, state: &mut State, fields: &Fields, step: f64) {
-    let (Some(bodies), Some(mut ledger)) = (bodies, state.ledger.take()) else { return };
+    let Some(bodies) = bodies else { return };
+    let Some(mut ledger) = state.ledger.take() else { return };
     for clump in 0..bodies.count() {
         let way = way(bodies, &state.clumps, clump, step);
         let mut works = [0.0; Source::COUNT];
@@ -77,7 +78,8 @@ pub(crate) fn book_work(bodies: Option<&ClumpBodies>, state: &mut State, fields:
 
 /// Books what the outside and global damping do to clumps in the half kick that is about to be made.
 pub(crate) fn book_losses(bodies: Option<&ClumpBodies>, state: &mut State, fields: &Fields, step: f64) {
-    let (Some(bodies), Some(mut losses)) = (bodies, state.losses.take()) else { return };
+    let Some(bodies) = bodies else { return };
+    let Some(mut losses) = state.losses.take() else { return };
     for clump in 0..bodies.count() {
         let way = way(bodies, &state.clumps, clump, step);
         let [weight, applied, braking] = of_fields((bodies, clump), state, fields, way);
