@@ -144,6 +144,8 @@ pub struct Summary {
     pub remarks: Vec<String>,
     /// What could not be taken over from the checkpoint of another scene.
     pub left_behind: Vec<String>,
+    /// Units of the columns of `history.csv` that have one.
+    pub units: BTreeMap<String, &'static str>,
 }
 
 impl Summary {
@@ -208,6 +210,7 @@ impl Summary {
             momentum,
             remarks: remarks(order.scene, simulation),
             left_behind: Vec::new(),
+            units: BTreeMap::new(),
         }
     }
 

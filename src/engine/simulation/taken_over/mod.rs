@@ -128,8 +128,10 @@ fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
 /// Lets clumps stand and move as those to which their spheres belonged.
 fn put_clumps(scene: &Scene, state: &mut State, reached: &State, numbers: &Numbers) {
     let mut there = vec![None; scene.particles.len()];
-    for (index, here) in numbers.here.iter().enumerate().filter_map(|(index, here)| Some((index, (*here)?))) {
-        there[here as usize] = reached.particles.slot_of(index as u32).and_then(|slot| reached.clump(slot));
+    for (index, here) in numbers.here.iter().enumerate() {
+        // What came by an insertion stands behind the scene's own.
+        let Some(place) = here.and_then(|here| there.get_mut(here as usize)) else { continue };
+        *place = reached.particles.slot_of(index as u32).and_then(|slot| reached.clump(slot));
     }
     for (index, clump) in scene.clumps.iter().enumerate() {
         let Some(from) = there[clump.first as usize] else { continue };
