@@ -1,6 +1,6 @@
 """How many time steps `cograin settle` takes with its own damping, over those of the best damping chosen by hand, for kinds of scenes.
 
-    python3 benches/settling.py [--count 1000] [--only NAME] [--damping 0.2 0.4 0.6 0.8] [--safety 0.8] [--cograin FILE]
+    python3 benches/settling.py [--count 1000] [--only NAME] [--damping 0.2 0.4 0.6 0.8] [--safety 0.8] [--seed 1] [--cograin FILE]
 
 A line for each kind: steps of the default, steps of each damping, and the ratio of the default to the least. `-` did not settle; why is
 told below the line.
@@ -91,7 +91,7 @@ def settle(options, scene, damping=None):
     command = [options.cograin, "settle", scene, "-o", scene.with_suffix(".cograin"), "--overwrite", "--quiet"]
     command += ["--set", f"run.safety={options.safety}"] if options.safety else []
     command += ["--set", f"run.settle_damping={damping}"] if damping is not None else []
-    command += ["--steps", str(options.steps)]
+    command += ["--steps", str(options.steps), "--set", f"run.seed={options.seed}"]
     done = subprocess.run([word for word in command if word != "--quiet"], capture_output=True, text=True, check=False)
     found = re.search(r"settled after (\d+) steps?", done.stdout)
     return (int(found[1]), "") if found else (None, done.stderr.strip().splitlines()[-1])
@@ -104,6 +104,7 @@ def main():
     parser.add_argument("--damping", type=float, nargs="*", default=[0.1, 0.3, 0.5, 0.8, 0.9])
     parser.add_argument("--safety", type=float)
     parser.add_argument("--steps", type=int, default=200_000)
+    parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cograin", default=str(Path(__file__).resolve().parents[1] / "target/release/cograin"))
     options = parser.parse_args()
     print("| kind | default |", " | ".join(map(str, options.damping)), "| over the least |")

@@ -555,7 +555,7 @@ fn variables_of_a_cell_are_its_inputs_and_what_it_answers() {
     {
         assert!(outputs.iter().any(|output| output == name), "{name} is missing in {outputs:?}");
     }
-    assert_eq!(outputs.len(), 4 + 6 + 6 + 6 + 4);
+    assert_eq!(outputs.len(), 4 + 6 + 6 + 6 + 5);
 }
 
 #[test]

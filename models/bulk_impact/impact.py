@@ -3,6 +3,7 @@
 import argparse
 import csv
 import json
+import math
 import re
 from pathlib import Path
 
@@ -70,11 +71,21 @@ def drop(program, start, folder, given, begin=0.0, end=0.04, ball=(0.06, 5.0)):
     return rows[:, 0] + begin, rows[:, 1], rows[:, 2], summary
 
 
-def lowest(time, height):
-    """The smallest height, from the parabola through the smallest of the rows and its neighbours [m]."""
-    at = min(max(int(height.argmin()), 1), len(height) - 2)
-    before, least, after = height[at - 1 : at + 2]
-    return least - (after - before) ** 2 / (8.0 * (before - 2.0 * least + after))
+def turn(time, height):
+    """When the ball turns [s], and its height then [m], from rows 1 ms apart, as published.
+
+    It turns in a tenth of that: where a parabola through three rows before the lowest one meets free flight after it.
+    """
+    rows = np.arange(math.ceil(1e3 * time[0] - 1e-6), math.floor(1e3 * time[-1] + 1e-6) + 1)
+    heights = np.interp(1e-3 * rows, time, height)
+    at = min(max(int(np.nanargmin(heights)), 3), len(rows) - 5)
+    begun, falls = rows[at], np.poly1d([-0.5e-6 * GRAVITY, 0.0, 0.0])
+    before, after = slice(at - 3, at), slice(at + 1, at + 5)
+    down = np.poly1d(np.polyfit(rows[before] - begun, heights[before], 2))
+    flown = rows[after] - begun
+    up = np.poly1d(np.polyfit(flown, heights[after] - falls(flown), 1)) + falls
+    meets = min((float(root.real) for root in (down - up).roots if root.imag == 0.0), key=abs)
+    return 1e-3 * (begun + meets), float(down(meets))
 
 
 def at_40_ms(time, height, speed):
@@ -93,11 +104,11 @@ def published():
 def report(path, found):
     """Writes the figures of each run as a table."""
     rows = [
-        (seed, friction, safety or "default", lowest(*course[:2]), at_40_ms(*course), steps)
+        (seed, friction, safety or "default", *turn(*course[:2]), at_40_ms(*course), steps)
         for seed, friction, safety, course, steps in found
     ]
     with path.open("w", newline="") as text:
-        names = ("seed", "friction_at_rest", "safety", "lowest_m", "at_40_ms_m", "steps")
+        names = ("seed", "friction_at_rest", "safety", "turn_s", "lowest_m", "at_40_ms_m", "steps")
         csv.writer(text).writerows([names, *rows])
 
 
@@ -131,7 +142,9 @@ def main():
             *course, summary = drop(program, start, run, with_step, options.begin, options.end)
             found.append((seed, friction, safety, course, summary["session_steps"]))
             print(f"bed {seed}, friction {friction}, safety {safety or 'default'}:", end=" ")
-            print(f"lowest {1e3 * lowest(*course[:2]):.2f} mm, at 40 ms {1e3 * at_40_ms(*course):.2f} mm", flush=True)
+            when, least = turn(*course[:2])
+            print(f"turns after {1e3 * when:.2f} ms at {1e3 * least:.2f} mm,", end=" ")
+            print(f"at 40 ms {1e3 * at_40_ms(*course):.2f} mm", flush=True)
     report(options.output / "found.csv", found)
     from picture import draw
 

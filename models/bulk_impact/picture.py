@@ -5,7 +5,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from impact import at_40_ms, lowest
+from impact import at_40_ms, turn
 
 OTHERS, OWN = "0.55", "#b5482a"
 COLOURS = (OWN, "#1b6ca8", "#2a7f4f")
@@ -20,9 +20,9 @@ def draw(path, others, found):
     course(axes[0, 0], others, found)
     if safeties:
         time, heights = others
-        least = [lowest(time, height) for height in heights.values()]
+        least = [turn(time, height)[1] for height in heights.values()]
         last = [height[np.searchsorted(time, 0.04)] for height in heights.values()]
-        over_the_step(axes[0, 1], found, lambda of: lowest(*of[:2]), least, "lowest point [mm]")
+        over_the_step(axes[0, 1], found, lambda of: turn(*of[:2])[1], least, "lowest point [mm]")
         over_the_step(axes[0, 2], found, lambda of: at_40_ms(*of), last, "height at 40 ms [mm]")
     figure.savefig(path, dpi=110)
     plt.close(figure)

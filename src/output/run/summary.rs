@@ -141,6 +141,8 @@ pub struct Summary {
     pub remarks: Vec<String>,
     /// What could not be taken over from the checkpoint of another scene.
     pub left_behind: Vec<String>,
+    /// Units of the columns of `history.csv` that have one.
+    pub units: BTreeMap<String, &'static str>,
 }
 
 impl Summary {
@@ -204,6 +206,7 @@ impl Summary {
             momentum,
             remarks: remarks(order.scene, simulation),
             left_behind: Vec::new(),
+            units: BTreeMap::new(),
         }
     }
 
