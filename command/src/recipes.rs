@@ -58,6 +58,8 @@ recipes! {
     "loaded_beam" "grains on a floor that an elastic beam carries":
         "scene.toml" "../recipes/loaded_beam/scene.toml",
         "couple.py" "../recipes/loaded_beam/couple.py";
+    "clumps" "ballast: stones of four spheres fall into a box":
+        "scene.toml" "../recipes/clumps/scene.toml";
 }
 
 /// `cograin new`
@@ -92,9 +94,13 @@ pub(super) fn new(arguments: &NewArguments) -> Result<(), Ending> {
     for (name, text) in recipe.files {
         write(&folder.join(name), text)?;
     }
-    let scene = folder.join(recipe.files[0].0);
+    let has = |end: &str| recipe.files.iter().find(|(name, _)| name.ends_with(end)).map(|(name, _)| folder.join(name));
+    let (scene, out) = (folder.join(recipe.files[0].0), folder.join("out"));
+    let inputs = has(".csv").map_or(String::new(), |table| format!(" --inputs {}", table.display()));
     say(format_args!("{}: {}", folder.display(), recipe.about))?;
-    say(format_args!("next: cograin check {}", scene.display()))
+    say(format_args!("next: cograin check {}", scene.display()))?;
+    say(format_args!("      cograin run {} -o {}{inputs}", scene.display(), out.display()))?;
+    has("couple.py").map_or(Ok(()), |_| say(format_args!("      cd {} && python couple.py", folder.display())))
 }
 
 /// Writes a file that is not there.

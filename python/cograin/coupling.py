@@ -132,10 +132,10 @@ class Coupling:
         self.control = control or StepControl()
         columns = [*interface.names, *(_force_name(name, exchange.force) for name in interface.names)]
         # What is a column anyway is not watched a second time.
-        watched, self._read_watched = self._reading(_without(watch, columns))
+        watched, self._read_watched, units = self._reading(_without(watch, columns))
         _different([*COLUMNS, *columns, *watched])
         count = len(interface.names)
-        self.record = Record(columns[:count], columns[count:], watched)
+        self.record = Record(columns[:count], columns[count:], watched, units)
         self._start = interface.time
         self._place = 0.0  # in steps since the start, exact
         self._level = 0  # how often the step is halved now
@@ -467,11 +467,11 @@ class Coupling:
                 "give the unit its inputs at the start, or place the partner"
             )
 
-    def _reading(self, watch: Watch) -> tuple[list[str], Callable[[], Iterable[float]]]:
-        """The watched names, and a function that returns all their values."""
+    def _reading(self, watch: Watch) -> tuple[list[str], Callable[[], Iterable[float]], dict[str, str]]:
+        """The watched names, a function that returns all their values, and the units that they are known to have."""
         if isinstance(watch, Mapping):
             functions = list(watch.values())
-            return list(watch), lambda: (read() for read in functions)
+            return list(watch), lambda: (read() for read in functions), {}
         units = {unit.name: unit for unit in getattr(self.interface, "units", [])}
         found: list[tuple[Unit, str]] = []
         watched = list(dict.fromkeys(watch))
@@ -479,12 +479,14 @@ class Coupling:
             first, _, rest = name.partition(".")
             several = len(units) > 1 and first in units
             found.append((units[first], rest) if several else (next(iter(units.values())), name))
-        kinds = {unit.variable(variable).type for unit, variable in found}
+        described = [unit.variable(variable) for unit, variable in found]
+        kinds = {one.type for one in described}
+        measured = {name: one.unit for name, one in zip(watched, described, strict=True) if one.unit}
         if kinds == {"Real"} and len({id(unit) for unit, _ in found}) == 1:
             # One call for all of them: on a small scene each call costs as much as several time steps.
             unit, names = found[0][0], tuple(variable for _, variable in found)
-            return watched, lambda: unit.get(names).tolist()
-        return watched, lambda: (unit.number(variable) for unit, variable in found)
+            return watched, lambda: unit.get(names).tolist(), measured
+        return watched, lambda: (unit.number(variable) for unit, variable in found), measured
 
 
 def couple(

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from cograin.results import Cloud, Frame, ResultError, Run, Table, read_table, unit_of
+from cograin.results import Cloud, Frame, ResultError, Run, Table, read_table
 
 #: Colours after Okabe and Ito, in an order in which neighbours differ in lightness, too.
 COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#000000"]
@@ -64,14 +64,14 @@ def _interesting(table: Table) -> dict[str, list[str]]:
         spread = float(finite.max() - finite.min())
         is_mean = ".mean_" in name and name.replace(".mean_", ".") in table
         if spread > 0.0 and not is_mean and not name.endswith((".residual", ".physical_residual")):
-            key = unit_of(name) if unit_of(name) != "1" else name
+            key = table.unit_of(name) if table.unit_of(name) != "1" else name
             groups.setdefault(key, []).append((spread, name))
     chosen = {}
     for key, columns in groups.items():
         columns.sort(reverse=True)
         chosen[key] = [name for spread, name in columns if spread > 0.01 * columns[0][0]][:MOST_LINES]
     # What has a unit comes before counts and ratios.
-    return dict(sorted(chosen.items(), key=lambda group: unit_of(group[1][0]) == "1"))
+    return dict(sorted(chosen.items(), key=lambda group: table.unit_of(group[1][0]) == "1"))
 
 
 def history(table: Table, columns: Sequence[str] | None = None) -> Any:
@@ -82,13 +82,13 @@ def history(table: Table, columns: Sequence[str] | None = None) -> Any:
         groups = {}
         for name in columns:
             table[name]  # refuses an unknown one by name
-            groups.setdefault(unit_of(name) if unit_of(name) != "1" else name, []).append(name)
+            groups.setdefault(table.unit_of(name) if table.unit_of(name) != "1" else name, []).append(name)
     if not groups:
         raise ResultError("expected a column that changes over time, found none")
     figure, panels = _figure(len(groups), height=2.3)
     long, second = _prefixed(table["time"], "s")
     for panel, names in zip(panels, groups.values(), strict=True):
-        unit = unit_of(names[0])
+        unit = table.unit_of(names[0])
         factor, shown = _prefixed([table[name] for name in names], unit)
         for place, name in enumerate(names):
             style = {"color": COLOURS[place % len(COLOURS)], "linestyle": LINES[place % len(LINES)]}
@@ -170,6 +170,13 @@ def _magnitude(values: Any) -> Any:
     return np.linalg.norm(values, axis=1) if values.ndim == 2 else values.astype(float)
 
 
+def _scale(values: Any) -> tuple[float, float]:
+    """The values of the two ends of the colours: one grain in a hundred may be beyond, so that one does not dim all."""
+    return float(values.min()), float(np.percentile(values, 99.0))
+
+
+#: Outlines of particles, which show on every colour.
+EDGES: dict[str, Any] = {"edgecolors": "#999999", "linewidths": 0.4}
 #: Units of the fields of particles.
 FIELDS = {"velocity": "m/s", "angular_velocity": "rad/s", "force": "N", "torque": "N.m", "mass": "kg", "radius": "m"}
 
@@ -177,7 +184,8 @@ FIELDS = {"velocity": "m/s", "angular_velocity": "rad/s", "force": "N", "torque"
 def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[float, float] | None = None) -> Any:
     """The particles as seen along an axis, coloured by a field: ``velocity``, ``force``, ``set`` and so on.
 
-    ``scale`` gives the values of the two ends of the colours; by default those of this frame.
+    ``scale`` gives the values of the two ends of the colours; by default those of this frame but for its largest
+    hundredth.
     """
     particles = frame.particles
     figure, (panel,) = _figure(height=5.5)
@@ -189,25 +197,26 @@ def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[fl
     values = particles[by]
     if values.dtype.kind in "iu" and by != "id":
         kinds = np.unique(values)
+        from matplotlib import colormaps
         from matplotlib.lines import Line2D
 
         places = np.searchsorted(kinds, values)
-        colours = np.array([COLOURS[place % len(COLOURS)] for place in range(len(kinds))])
+        # From dark to light: kinds differ in print, too.
+        colours = colormaps["viridis"](np.linspace(0.1, 0.9, len(kinds)))
         order = np.argsort(-VIEWS[view][3] * particles.points[:, VIEWS[view][2]], kind="stable")
-        _circles(panel, particles, view, facecolors=colours[places[order]], edgecolors="#333333", linewidths=0.3)
+        _circles(panel, particles, view, facecolors=colours[places[order]], **EDGES)
         marks = [Line2D([], [], marker="o", linestyle="", color=colours[place]) for place in range(len(kinds))]
         panel.legend(
             marks, [f"{by} {kind}" for kind in kinds], frameon=False, loc="center left", bbox_to_anchor=(1, 0.5)
         )
     else:
         values = _magnitude(values)
-        low, high = scale or (float(values.min()), float(values.max()))
+        low, high = scale or _scale(values)
         factor, unit = _prefixed([low, high], FIELDS.get(by, "1"))
-        drawn = _circles(
-            panel, particles, view, values=factor * values, cmap="viridis", edgecolors="#333333", linewidths=0.3
-        )
+        drawn = _circles(panel, particles, view, values=factor * values, cmap="viridis", **EDGES)
         drawn.set_clim(factor * low, factor * high)
-        figure.colorbar(drawn, ax=panel, label=f"{by} [{unit}]", shrink=0.8)
+        beyond = "max" if values.max() > high else "neither"
+        figure.colorbar(drawn, ax=panel, label=f"{by} [{unit}]", shrink=0.8, extend=beyond)
     panel.set_title(f"t = {frame.time:.4g} s", fontsize=10)
     return figure
 
@@ -272,9 +281,10 @@ def cracks(run: Run, view: str = "y") -> Any:
         chosen = np.array([row["cause"] == cause for row in rows])
         colour, mark = COLOURS[place % len(COLOURS)], "o^sDv"[place % 5]
         where.scatter(points[chosen, across], points[chosen, up], s=9, color=colour, marker=mark, label=cause, zorder=3)
-        moments = np.sort(times[chosen])
-        line = LINES[place % len(LINES)]
-        when.step(long * moments, np.arange(1, len(moments) + 1), where="post", color=colour, linestyle=line)
+        moments = np.append(np.sort(times[chosen]), times.max())
+        counts = np.append(np.arange(1, len(moments)), len(moments) - 1)
+        style = {"color": colour, "linestyle": LINES[place % len(LINES)], "marker": mark, "markersize": 4.0}
+        when.step(long * moments, counts, where="post", markevery=max(1, len(moments) // 8), **style)
     figure.legend(loc="outside lower center", ncols=len(causes), frameon=False, markerscale=2.0)
     when.set_xlabel(f"time [{second}]")
     when.set_ylabel("broken bonds")
@@ -295,7 +305,7 @@ def animation(run: Run, path: str | Path, by: str = "velocity", view: str = "y",
     values = [_magnitude(cloud[by]) for cloud in clouds if len(cloud)]
     if not values:
         raise ResultError("animation: expected particles in the frames, found none")
-    scale = (float(min(each.min() for each in values)), float(max(each.max() for each in values)))
+    scale = _scale(np.concatenate(values))
     filled = [cloud for cloud in clouds if len(cloud)]
     limits = [
         (min(float((c.points[:, axis] - c["radius"]).min()) for c in filled),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -44,8 +44,15 @@ class Row:
 class Record:
     """The rows of a coupled run, by name: ``record["time"]``, ``record["floor.displacement.z"]``."""
 
-    def __init__(self, displacements: Sequence[str], forces: Sequence[str], watched: Sequence[str] = ()) -> None:
+    def __init__(
+        self,
+        displacements: Sequence[str],
+        forces: Sequence[str],
+        watched: Sequence[str] = (),
+        units: Mapping[str, str] | None = None,
+    ) -> None:
         self.names = [*COLUMNS, *displacements, *forces, *watched]
+        self._units = units
         self._directions = len(displacements)
         self.rows: list[Row] = []
 
@@ -119,7 +126,7 @@ class Record:
     @property
     def table(self) -> Table:
         """The columns by name with their units, and as tables of pandas and xarray: ``record.table.to_pandas()``."""
-        return Table({name: self[name] for name in self.names})
+        return Table({name: self[name] for name in self.names}, self._units)
 
     def save(self, path: str | Path) -> None:
         """Writes a CSV file, a row for each step."""

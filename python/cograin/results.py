@@ -57,13 +57,19 @@ UNITS = {
     "mass": "kg",
     "mass_flow": "kg/s",
     "stress": "Pa",
+    "mean_stress": "Pa",
+    "target_stress": "Pa",
+    "volume": "m3",
     "temperature": "m2/s2",
     "stiffness": "N/m",
 }
 
 
 def unit_of(name: str) -> str:
-    """The unit of a variable of a unit or a column of a history; ``1`` for counts and ratios."""
+    """The unit of a variable of a unit or a column of a history by its name; ``1`` for counts and ratios.
+
+    Names of derived outputs and ``<insertion>.rate`` tell none: `Table.unit_of` knows those of a run or a record.
+    """
     first, *words = name.split(".")
     return next((UNITS[word] for word in reversed(words) if word in UNITS), FIRST.get(first, "1"))
 
@@ -73,10 +79,11 @@ class ResultError(Exception):
 
 
 class Table(Mapping[str, Vector]):
-    """Columns of numbers by name, each with its unit: ``table["lid.force.z"]``."""
+    """Columns of numbers by name, each with its unit: ``table["lid.force.z"]``, ``table.unit_of("lid.force.z")``."""
 
-    def __init__(self, columns: Mapping[str, Any]) -> None:
+    def __init__(self, columns: Mapping[str, Any], units: Mapping[str, str] | None = None) -> None:
         self._columns = {name: np.asarray(values, dtype=float) for name, values in columns.items()}
+        self._units = dict(units or {})
 
     def __getitem__(self, name: str) -> Vector:
         try:
@@ -95,8 +102,12 @@ class Table(Mapping[str, Vector]):
         return len(self._columns)
 
     def __repr__(self) -> str:
-        names = [name if unit_of(name) == "1" else f"{name} [{unit_of(name)}]" for name in self]
+        names = [name if self.unit_of(name) == "1" else f"{name} [{self.unit_of(name)}]" for name in self]
         return f"<Table of {self.rows} rows: {_listed(names)}>"
+
+    def unit_of(self, name: str) -> str:
+        """The unit of a column: what the run or the record says, else what the name tells."""
+        return self._units.get(name) or unit_of(name)
 
     @property
     def rows(self) -> int:
@@ -108,7 +119,7 @@ class Table(Mapping[str, Vector]):
         import pandas
 
         frame = pandas.DataFrame(self._columns)
-        frame.attrs["units"] = {name: unit_of(name) for name in self}
+        frame.attrs["units"] = {name: self.unit_of(name) for name in self}
         return frame.set_index("time") if "time" in self else frame
 
     def to_xarray(self) -> Any:
@@ -116,9 +127,11 @@ class Table(Mapping[str, Vector]):
         import xarray
 
         time = "time" if "time" in self else "row"
-        variables = {name: (time, values, {"units": unit_of(name)}) for name, values in self.items() if name != time}
+        variables = {
+            name: (time, values, {"units": self.unit_of(name)}) for name, values in self.items() if name != time
+        }
         at = self._columns.get("time", np.arange(self.rows, dtype=float))
-        return xarray.Dataset(variables, coords={time: (time, at, {"units": unit_of(time)})})
+        return xarray.Dataset(variables, coords={time: (time, at, {"units": self.unit_of(time)})})
 
 
 def _listed(names: list[str], most: int = 8) -> str:
@@ -126,14 +139,19 @@ def _listed(names: list[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + (f" and {len(names) - most} more" if len(names) > most else "")
 
 
-def read_table(path: str | Path) -> Table:
-    """Reads a CSV file of numbers: a history, or the record of a coupled run."""
+def reason(error: Exception) -> str:
+    """Why a file could not be read, without its name."""
+    return (error.strerror or str(error)) if isinstance(error, OSError) else str(error)
+
+
+def read_table(path: str | Path, units: Mapping[str, str] | None = None) -> Table:
+    """Reads a CSV file of numbers: a history, or the record of a coupled run. Names tell units, ``units`` others."""
     path = Path(path)
     try:
         with path.open(newline="", encoding="utf-8") as text:
             lines = list(csv.reader(text))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ResultError(f"{path}: {error}") from None
+        raise ResultError(f"{path}: expected a table of numbers (CSV): {reason(error)}") from None
     if not lines or len(set(lines[0])) != len(lines[0]):
         raise ResultError(f"{path}: expected a heading with a name for each column, found {lines[:1]}")
     names, rows = lines[0], lines[1:]
@@ -145,7 +163,7 @@ def read_table(path: str | Path) -> Table:
     except ValueError as error:
         raise ResultError(f"{path}: expected numbers: {error}") from None
     values = np.array(numbers, dtype=float).reshape(len(rows), len(names))
-    return Table({name: values[:, place] for place, name in enumerate(names)})
+    return Table({name: values[:, place] for place, name in enumerate(names)}, units)
 
 
 @dataclass(repr=False)
@@ -195,7 +213,7 @@ def read_frame(path: str | Path) -> Cloud:
             group.tag: {array.get("Name", ""): _array(array) for array in group.iter("DataArray")} for group in piece
         }
     except (OSError, ElementTree.ParseError, ValueError, KeyError) as error:
-        raise ResultError(f"{path}: expected a frame of cograin: {error}") from None
+        raise ResultError(f"{path}: expected a frame of cograin: {reason(error)}") from None
     points = next(iter(found.get("Points", {}).values()), np.empty((0, 3))).reshape(-1, 3)
     structure = found.get("Cells", {})
     corners = structure.get("connectivity", np.empty(0, dtype=int)).astype(np.int64)
@@ -250,8 +268,12 @@ class Run:
 
     @property
     def history(self) -> Table:
-        """`history.csv`."""
-        return read_table(self.folder / "history.csv")
+        """`history.csv`, with the units that `summary.json` has once the run has ended."""
+        try:
+            units = self.summary.get("units")
+        except ResultError:
+            units = None
+        return read_table(self.folder / "history.csv", units)
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -260,7 +282,7 @@ class Run:
         try:
             read: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         except (OSError, ValueError) as error:
-            raise ResultError(f"{path}: {error}") from None
+            raise ResultError(f"{path}: {reason(error)}") from None
         return read
 
     @property

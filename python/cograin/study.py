@@ -30,7 +30,7 @@ from pathlib import Path
 from typing import Any
 
 from cograin.program import Program, ProgramError
-from cograin.results import ResultError, Run
+from cograin.results import ResultError, Run, reason
 
 #: A number or a text of a table.
 Value = float | int | bool | str
@@ -62,7 +62,7 @@ def read_rows(path: str | Path) -> list[Row]:
         with path.open(newline="", encoding="utf-8-sig") as text:
             lines = [line for line in csv.reader(text, strict=True) if line]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise StudyError(f"{path}: {error}") from None
+        raise StudyError(f"{path}: expected a table of values (CSV): {reason(error)}") from None
     if not lines:
         raise StudyError(f"{path}: expected a heading with keys, found no line")
     keys = [key.strip() for key in lines[0]]

@@ -1,10 +1,12 @@
 """A unit of a cell is the micro simulation of the Micro Manager, by a stand-in of its calls."""
 
+from typing import ClassVar
+
 import numpy as np
 import pytest
-from cograin.micro_manager import Cell
 
 from cograin import Unit, UnitError
+from cograin.micro_manager import Cell
 
 # A body-centred cubic lattice, pressed: neighbours overlap by 4 % of a radius.
 LATTICE = """
@@ -37,8 +39,8 @@ def micro(packaged):
 
     class MicroSimulation(Cell):
         path = packaged(LATTICE)
-        read = {"NormalStrain": STRAINS, "ShearStrain": ["cell.strain.xz"]}
-        write = {"NormalStress": STRESSES, "ShearStress": ["cell.mean_stress.xz"]}
+        read: ClassVar = {"NormalStrain": STRAINS, "ShearStrain": ["cell.strain.xz"]}
+        write: ClassVar = {"NormalStress": STRESSES, "ShearStress": ["cell.mean_stress.xz"]}
 
     return MicroSimulation
 

@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+from conftest import DROP
 
+from cograin import Interface, Oscillator, Secant, couple
 from cograin.results import ResultError, Run, read_frame, read_table, unit_of
 
 SCENE = """
@@ -44,6 +46,8 @@ contacts = true
 boundaries = true
 energy = true
 losses = true
+[derived.support]
+sum = ["floor.force.z", "floor.mean_force.z"]
 [region.all]
 box = [[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]]
 """
@@ -76,6 +80,28 @@ def test_the_history_is_a_table_by_names(folder):
     assert history["time"][-1] == 0.02
     with pytest.raises(KeyError, match=r"the nearest is floor\.force\.z"):
         history["floor.force.zz"]
+
+
+def test_a_run_and_a_record_know_units_that_names_do_not_tell(folder, opened):
+    assert Run(folder).history.unit_of("support") == "N" and unit_of("support") == "1"
+    feed = """
+[region.above]
+box = [[-1.0, -1.0, 1.0], [1.0, 1.0, 2.0]]
+[insertion.feed]
+region = "above"
+material = "s"
+sizes = { radius = 0.05 }
+count_rate = 0.0
+"""
+    floor = Interface(opened(DROP + feed), "floor.displacement.z")
+    record = couple(floor, Oscillator(0.1, 1e4), Secant(), step=1e-3, end=2e-3, watch=["feed.rate", "feed.mass"])
+    assert [record.table.unit_of(name) for name in ("feed.rate", "feed.mass", "length")] == ["1/s", "kg", "s"]
+
+
+def test_a_file_that_is_not_there_is_told_in_words(tmp_path):
+    with pytest.raises(ResultError) as error:
+        read_table(tmp_path / "no.csv")
+    assert str(error.value) == f"{tmp_path}/no.csv: expected a table of numbers (CSV): No such file or directory"
 
 
 def test_what_is_shown_at_a_prompt_fits_there(folder):

@@ -125,7 +125,7 @@ fn edit(text: &str, root: &Spanned<DeValue>, setting: &Setting) -> Edit {
     let rest = names[found..].join(".");
     let is_table = matches!(value.get_ref(), DeValue::Table(_));
     let written = text.get(span.clone()).unwrap_or_default();
-    if found == names.len() && !(is_table && written.starts_with('[')) {
+    if found == names.len() && (!is_table || written.starts_with('{')) {
         return Edit { from: span.start, to: span.end, text: setting.value.clone(), whole: false };
     }
     if found + 1 == names.len() && found == 0 {
@@ -207,6 +207,16 @@ mod tests {
         let expected = "gravity = [0, 0, -9.81]\n[run] # all\nstep = \"auto\"\nend = 1.0\n[pair.a.b]\nfriction = 0.1\n[m]\n\
                         shape = { y = 2, x = 1 }\nother = { z = 3}\n[pair.a.a]\nfriction = 0.5\n";
         assert_eq!(changed, expected);
+    }
+
+    #[test]
+    fn a_table_is_replaced_only_where_it_is_a_value() {
+        let (changed, _) = with("[a]\nx = { y = 1 }\n", &["a.x={ z = 2 }"]);
+        assert_eq!(changed, "[a]\nx = { z = 2 }\n");
+        // One under a heading is not cut to pieces: that it is there twice is told by the setting.
+        let (changed, changes) = with("[a.x.y]\nz = 1\n", &["a.x={ z = 2 }"]);
+        assert_eq!(changed, "[a.x.y]\nz = 1\n[a]\nx = { z = 2 }\n");
+        assert_eq!(changes.0.len(), 1);
     }
 
     #[test]

@@ -36,7 +36,7 @@ const OF_CELL: Row = Row { exists: |scene, _| scene.cell.is_some(), ..OUTPUT };
 const OF_COMPONENT: Row = Row { each: Each::Strain, ..OF_CELL };
 
 /// Variables of the periodic cell, inputs first.
-pub(super) static OF_CELLS: [Row; 11] = [
+pub(super) static OF_CELLS: [Row; 12] = [
     Row {
         name: "cell.strain",
         description: "strain {axis} of the cell since the scene's time 0, to be reached at the end of the communication step at a \
@@ -123,5 +123,15 @@ pub(super) static OF_CELLS: [Row; 11] = [
         description: "mean over the contacts between particles of the product {axis} of the components of their normals",
         read: |now, at| Value::Real(now.findings.cell_fabric(now.simulation).tensor[at.axis()]),
         ..OF_COMPONENT
+    },
+    Row {
+        name: "cell.unbalanced_force",
+        description: "mean unbalanced force of the particles over the mean normal force of their contacts, or, where none presses, \
+                      the mean force of the bonds: near 0 at rest; 0, too, where nothing holds together",
+        minimum: Some(0.0),
+        read: |now, _| {
+            Value::Real(Some(now.simulation.unbalanced_force()).filter(|ratio| ratio.is_finite()).unwrap_or(0.0))
+        },
+        ..OF_CELL
     },
 ];

@@ -197,9 +197,8 @@ pub enum Failure {
     },
     /// The packing will not come to rest.
     #[error(
-        "not settled after {} (t = {time} s), and it comes no nearer: the unbalanced force stays at {ratio:.3e} of \
-         the mean force, above settle_tolerance, {tolerance:e}: {why}; {}",
-        counted(*steps, "step"), going_on(kept), time = plain(*time)
+        "not settled after {} (t = {time} s), and it comes no nearer: {}: {why}; {}",
+        counted(*steps, "step"), restless(*ratio, *tolerance), going_on(kept), time = plain(*time)
     )]
     Restless {
         /// Where the state is kept.
@@ -263,6 +262,15 @@ fn reached(ratio: f64) -> String {
     }
 }
 
+/// Where a scene stays that comes no nearer to rest.
+fn restless(ratio: f64, tolerance: f64) -> String {
+    if ratio.is_finite() {
+        format!("the unbalanced force stays at {ratio:.3e} of the mean force, above settle_tolerance, {tolerance:e}")
+    } else {
+        "nothing stays in touch and no bond is loaded, so there is no force that could come into balance".to_owned()
+    }
+}
+
 /// What was missing to be settled.
 fn unsettled(ratio: f64, tolerance: f64, why: &str) -> String {
     if ratio.is_finite() {
@@ -273,5 +281,25 @@ fn unsettled(ratio: f64, tolerance: f64, why: &str) -> String {
         "nothing touches and no bond is loaded, so there is no force that could come into balance; more --steps, if bodies \
          are still to meet, or something that holds them may do"
             .to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_scene_that_nothing_holds_is_told_without_a_number() {
+        let [told, free] = [0.5, f64::INFINITY].map(|ratio| {
+            let (kept, why) = (PathBuf::from("bed.unsettled"), "it still moves".to_owned());
+            Failure::Restless { kept, steps: 10, time: 0.1, ratio, tolerance: 1e-4, why }.to_string()
+        });
+        assert!(told.contains(
+            "the unbalanced force stays at 5.000e-1 of the mean force, above settle_tolerance, 1e-4: it still moves; "
+        ));
+        assert!(
+            free.contains("it comes no nearer: nothing stays in touch and no bond is loaded") && !free.contains("inf"),
+            "{free}"
+        );
     }
 }

@@ -18,7 +18,7 @@ pub use settle::{SettleOrder, SettleProgress, SettleStart, Settled, settle};
 pub use summary::Summary;
 
 use crate::engine::simulation::{RunError, Simulation};
-use crate::interface::Interface;
+use crate::interface::{Interface, Variable};
 use crate::output::results::SUMMARY;
 use crate::output::results::files::{Checkpoint, Durability, read_checkpoint, write_whole};
 use crate::output::results::folder::{Folder, KeptFiles, Place};
@@ -264,6 +264,8 @@ impl<'a> Session<'a> {
         let mut summary =
             Summary::new(&self.order, &self.simulation, &self.meter, self.start, momentum, result.as_ref().err());
         summary.left_behind = self.left_behind;
+        let unit = |variable: &Variable| Some((variable.name.clone(), variable.quantity.unit()?));
+        summary.units = self.interface.recorded().filter_map(|(_, variable)| unit(variable)).collect();
         let result = result.and_then(|()| match summary.lacking() {
             Some(part) => {
                 Err(RunError::Invalid { part, place: 0, expected: "finite numbers", time: self.simulation.time() }

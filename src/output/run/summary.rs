@@ -29,8 +29,11 @@ pub enum Ending {
 /// Numbers of things.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Counts {
-    /// Particles.
+    /// Particles, spheres of clumps among them.
     pub particles: usize,
+    /// Clumps, where there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clumps: Option<usize>,
     /// Boundaries.
     pub boundaries: usize,
     /// Contacts at the end, those with planes included.
@@ -141,6 +144,8 @@ pub struct Summary {
     pub remarks: Vec<String>,
     /// What could not be taken over from the checkpoint of another scene.
     pub left_behind: Vec<String>,
+    /// Units of the columns of `history.csv` that have one.
+    pub units: BTreeMap<String, &'static str>,
 }
 
 impl Summary {
@@ -181,6 +186,7 @@ impl Summary {
             threads: simulation.threads(),
             counts: Counts {
                 particles,
+                clumps: Some(state.clumps.len()).filter(|count| *count > 0),
                 boundaries: state.boundaries.len(),
                 contacts: meter.contacts,
                 mean_contacts: if session_steps > 0 { meter.contact_steps / session_steps as f64 } else { 0.0 },
@@ -204,6 +210,7 @@ impl Summary {
             momentum,
             remarks: remarks(order.scene, simulation),
             left_behind: Vec::new(),
+            units: BTreeMap::new(),
         }
     }
 
