@@ -1,7 +1,8 @@
 //! A column of grains that settles behind a gate and collapses when the gate is drawn: its measures over the time step and the processor time.
 //!
 //! Grains that fall and roll are chaotic: a trajectory does not converge, its measures do, up to what another packing would
-//! change. So each step is run from several packings, and the picture shows each of them.
+//! change. So each step is run from several packings, and the picture shows each of them. The automatic step stands beside the fixed
+//! fractions of the stable one.
 
 use crate::block::processor_time;
 use crate::stage::Stage;
@@ -24,6 +25,9 @@ pub(crate) const CHART: Chart = Chart {
 /// Fractions of the stable step.
 const PARTS: [f64; 5] = [0.8, 0.4, 0.2, 0.1, 0.05];
 
+/// What the automatic step is called.
+const AUTOMATIC: &str = "automatic step, all packings";
+
 /// Packings.
 const SEEDS: [u32; 3] = [1, 2, 3];
 
@@ -36,11 +40,12 @@ const TIMES: [f64; 2] = [0.25, 0.7];
 /// Communication steps over which the force on the gate is averaged, and their length \[s\].
 const AVERAGED: (u32, f64) = (20, 0.005);
 
-/// The scene.
-fn text(part: f64, seed: u32) -> String {
+/// The scene, with the automatic step if no fraction is given.
+fn text(part: Option<f64>, seed: u32) -> String {
     let ((count, radius), start) = (GRAINS, TIMES[0]);
+    let step = part.map_or_else(String::new, |part| format!("safety = {part:?}\n"));
     let mut text = format!(
-        "gravity = [0.0, 0.0, -9.81]\n[run]\nthreads = 1\nsafety = {part:?}\nseed = {seed}\n\
+        "gravity = [0.0, 0.0, -9.81]\n[run]\nthreads = 1\n{step}seed = {seed}\n\
          [material.grain]\ndensity = 2500.0\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\n\
          [pair.grain.grain]\nrestitution = 0.5\nfriction = 0.5\nrolling_friction = 0.1\n\
          [contact.touch.normal.hertz]\n[contact.touch.tangential.history]\n[contact.touch.rolling.epsd2]\n\
@@ -67,7 +72,7 @@ fn mean(stage: &Stage, axis: usize) -> f64 {
 
 /// What is measured: force on the gate \[N\], height of the settled centre of mass \[m\], contacts a grain, how far nine tenths of the
 /// grains ran out \[m\], height of the heap's centre of mass \[m\]; time steps; and processor time \[s\].
-fn measure(part: f64, seed: u32) -> Result<([f64; 5], [f64; 2]), ChartError> {
+fn measure(part: Option<f64>, seed: u32) -> Result<([f64; 5], [f64; 2]), ChartError> {
     let mut stage = Stage::of(&text(part, seed))?;
     let interface = Interface::of(stage.simulation.scene());
     let force = interface.find("gate.mean_force.x").expect("a boundary has a mean force");
@@ -110,15 +115,17 @@ fn draw() -> Result<Drawing, ChartError> {
     let [a, b, c, d, e] = COLUMNS;
     let mut table = Table::new([("series", ""), (PART, "1"), ("time steps", "1"), (COST, "s"), a, b, c, d, e]);
     for seed in SEEDS {
-        for part in PARTS {
+        for part in PARTS.map(Some).into_iter().chain([None]) {
             let (measured, [steps, time]) = measure(part, seed)?;
             let [a, b, c, d, e] = measured.map(Into::into);
-            table.push([format!("packing {seed}").into(), part.into(), steps.into(), time.into(), a, b, c, d, e]);
+            let series = if part.is_some() { format!("packing {seed}") } else { AUTOMATIC.to_owned() };
+            let part = part.map_or_else(|| "".into(), Into::into);
+            table.push([series.into(), part, steps.into(), time.into(), a, b, c, d, e]);
         }
     }
     let panel = |(column, _): (&'static str, &str)| {
         let title = format!("{} grains: {column}", GRAINS.0);
-        Panel::new(&title, logarithmic(COST), linear(column), "series")
+        Panel { single: vec![AUTOMATIC], ..Panel::new(&title, logarithmic(COST), linear(column), "series") }
     };
     let notes = COLUMNS.map(|(column, unit)| scatter(&table, column, unit)).into();
     Ok(Drawing { table, picture: Picture { panels: COLUMNS.map(panel).into(), ..Picture::default() }, notes })
@@ -126,18 +133,19 @@ fn draw() -> Result<Drawing, ChartError> {
 
 /// How much the step changes a measure, and how much the packing does.
 fn scatter(table: &Table, column: &str, unit: &str) -> String {
-    let of = |part: f64| {
-        let rows = (0..table.rows.len()).filter(|row| table.number(*row, PART) == Some(part));
+    let of = |part: Option<f64>| {
+        let rows = (0..table.rows.len()).filter(|row| table.number(*row, PART) == part);
         rows.filter_map(|row| table.number(row, column)).collect::<Vec<_>>()
     };
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let finest = of(PARTS[PARTS.len() - 1]);
+    let finest = of(PARTS.last().copied());
     let spread = finest.iter().fold(f64::NEG_INFINITY, |most, value| most.max(*value))
         - finest.iter().fold(f64::INFINITY, |least, value| least.min(*value));
-    let (right, shown) = (mean(&finest), PARTS.map(|part| format!("{part}: {:.4}", mean(&of(part)))));
+    let (right, shown) = (mean(&finest), PARTS.map(|part| format!("{part}: {:.4}", mean(&of(Some(part))))));
     format!(
-        "{column} [{unit}], mean of packings: {}; over packings {:.1} % apart",
+        "{column} [{unit}], mean of packings: {}, automatic: {:.4}; over packings {:.1} % apart",
         shown.join(", "),
+        mean(&of(None)),
         100.0 * spread / right
     )
 }

@@ -99,7 +99,8 @@ fn observe(stage: &Stage) -> Vec<f64> {
 fn errors(case: &Case, tangential: &str, scheme: &Scheme) -> Result<Vec<[f64; 2]>, ChartError> {
     let [_, period] = rest();
     let sampled = Sampled { interval: period / 4.0, count: 12, observe };
-    let run = |steps: f64| sampled.of(&text(case, tangential, &(given(period / steps) + scheme.run)));
+    let run =
+        |steps: f64| Ok::<_, ChartError>(sampled.of(&text(case, tangential, &(given(period / steps) + scheme.run)))?.0);
     let right = run(FINEST)?;
     STEPS.iter().map(|&steps| Ok([steps, apart(&run(steps)?, &right) / case.speed])).collect()
 }

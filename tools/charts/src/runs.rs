@@ -14,15 +14,15 @@ pub(crate) struct Sampled {
 }
 
 impl Sampled {
-    /// The samples of a scene whose given step divides the interval.
-    pub(crate) fn of(&self, text: &str) -> Result<Vec<f64>, ChartError> {
+    /// The samples of a scene, and its time steps; a given step is to divide the interval.
+    pub(crate) fn of(&self, text: &str) -> Result<(Vec<f64>, u64), ChartError> {
         let mut stage = Stage::of(text)?;
         let mut samples = Vec::new();
         for _ in 0..self.count {
             stage.advance(self.interval)?;
             samples.extend((self.observe)(&stage));
         }
-        Ok(samples)
+        Ok((samples, stage.simulation.state().clock.steps))
     }
 
     /// The time step that divides the interval and is this long at most \[s\].

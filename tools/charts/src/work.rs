@@ -142,7 +142,7 @@ fn cantilevers(table: &mut Table) -> Result<(), ChartError> {
     let timed = times(&BONDS.map(|(_, feature)| feature))?;
     for (([formulation, damping], feature), timed) in BONDS.into_iter().zip(&timed) {
         let (series, scheme) = (feature.name, feature.scheme.map_or("", |scheme| scheme.run));
-        let errors = deflection_errors([series, formulation, damping], scheme)?;
+        let (errors, _) = deflection_errors([series, formulation, damping], scheme)?;
         let points: Vec<[f64; 2]> = errors.iter().map(|found| [found.steps, found.error]).collect();
         fill(table, "cantilever", series, &points, 1e9 * timed.least / timed.bonds());
     }
