@@ -11,7 +11,7 @@ STRESSES = [f"cell.stress.{name}" for name in ("xx", "zz", "xz")]
 class Cell:
     """A unit whose strains in the plane are driven. Strains here are those since it was opened."""
 
-    def __init__(self, path, *, move=1e-3, hold=5e-4, tolerance=1e-3, most=40):
+    def __init__(self, path, *, move=1e-3, hold=5e-4, tolerance=1e-3, most=20):
         """A strain is made in `move` [s]; then the cell is held for `hold` [s] at a time until its unbalanced force is
         `tolerance` of the mean contact force, `most` times at the most."""
         self.unit = Unit(path)

@@ -23,6 +23,7 @@ HERE = Path(__file__).resolve().parent
 PRESSURE = 1e5  # [Pa], as cell.toml has it
 CONSOLIDATION = "pair.sand.sand.friction=0.2"  # what makes the sand dense
 PLANE = 'cell.motion={driven=["xx","zz","xz"]}'
+FIRM = 0.05  # least stiffness of a tangent over the largest of the sand at first
 SINGLE = 'cell.motion={driven=["zz"],servo={xx={stress=-1e5,max_rate=5.0}}}'
 
 
@@ -35,16 +36,28 @@ def units(program, folder):
     return folder / "point.fmu", folder / "single.fmu"
 
 
+def firm(tangents, least):
+    """Tangents whose symmetric part has no eigenvalue below this [Pa].
+
+    What softens is taken for stiffer than it is: Newton's steps are too short then, and do not run away.
+    """
+    even = 0.5 * (tangents + np.moveaxis(tangents, 1, 2))
+    values, vectors = np.linalg.eigh(even)
+    raised = (vectors * (values.clip(min=least) - values)[:, None, :]) @ np.moveaxis(vectors, 1, 2)
+    return tangents + raised
+
+
 class Test:
     """A block, its cells, and how far they have come."""
 
-    def __init__(self, block, path, threads, *, tolerance=1e-2, most=8):
+    def __init__(self, block, path, threads, *, tolerance=1e-2, most=10):
         self.block, self.tolerance, self.most = block, tolerance, most
         self.cells = [Cell(path) for _ in range(block.points)]
         self.pool = ThreadPoolExecutor(threads)
         self.displacement = block.basis.zeros()
         self.before = np.zeros_like(self.displacement)
         self.responses = 0
+        self.stiffest = None
 
     def __enter__(self):
         return self
@@ -63,7 +76,10 @@ class Test:
 
     def stresses_and_tangents(self, displacement):
         found = self._all(Cell.tangent, self.block.strains(displacement), 4)
-        return np.array([stress for stress, _ in found]), np.array([tangent for _, tangent in found])
+        stresses, tangents = np.array([stress for stress, _ in found]), np.array([tangent for _, tangent in found])
+        if self.stiffest is None:
+            self.stiffest = np.linalg.eigvalsh(0.5 * (tangents + np.moveaxis(tangents, 1, 2))).max()
+        return stresses, firm(tangents, FIRM * self.stiffest)
 
     def step(self, down):
         """Lowers the lid by `down` [m]. Returns what presses on it [N/m], iterations, and the rest out of balance."""
