@@ -10,7 +10,7 @@ PACKING = Path(__file__).resolve().parents[1] / "models/loaded_beam/dense_20k.cs
 BOX = ((0.0, 0.2448), (0.0, 0.2448), (0.0, 0.4))  # walls of the packing [m]
 YOUNGS_MODULUS, POISSONS_RATIO, DENSITY, RESTITUTION, FRICTION = 5.0e7, 0.3, 2500.0, 0.5, 0.5
 ROLLING_FRICTION, COHESION_ENERGY_DENSITY = 0.1, 5.0e3
-SKIN = 0.001  # of the peers, the best found for them [m]; cograin chooses its own
+SKIN = 0.001  # of the peers in the packing, the best found for them [m]; cograin chooses its own
 STEP = 1.54807158678598e-5  # 10 % of the Rayleigh time of the smallest sphere [s]
 MEAN_RADIUS = 0.005  # [m]
 
@@ -25,6 +25,7 @@ SMALL, LARGE, PITCH, BIMODAL_EDGE, BIMODAL_SPEED = 0.001, 0.005, 0.016, 0.048, 0
 
 # Spheres of 5 mm +- 20 % on a cubic lattice in a box, with random velocities and without gravity: they fill 7 % of it.
 GAS_EDGE, GAS_PITCH, GAS_SPEED = 27, 0.02, 1.0
+BIMODAL_SKIN, GAS_SKIN = 0.0004, 0.002  # of the peers, the best found for them [m]
 
 
 class Scene(NamedTuple):
@@ -40,6 +41,7 @@ class Scene(NamedTuple):
     spheres: str = ""  # bimodal or gas instead of the packing
     facet: float = 0.0  # edge of the facets of the walls [m]; 0: they are planes
     moving: bool = False  # whether walls of facets swing
+    skin: float = SKIN  # of the peers [m]
     peers: tuple = ()  # those that can run it
 
 
@@ -52,8 +54,8 @@ SCENES = [
     Scene("s3_finite_rotation", (100, 1100), bonds="finite_rotation", peers=("lammps", "yade")),
     Scene("s1_20k_mesh", (100, 1100), facet=4.5e-3, peers=("liggghts",)),
     Scene("s4_20k", (500, 5500), wide=3.0, factor=1.5, peers=("liggghts", "lammps", "yade")),
-    Scene("bimodal", (200, 2200), spheres="bimodal", factor=0.25),
-    Scene("gas", (500, 5500), spheres="gas"),
+    Scene("bimodal", (200, 2200), spheres="bimodal", factor=0.25, skin=BIMODAL_SKIN, peers=("liggghts", "lammps")),
+    Scene("gas", (500, 5500), spheres="gas", skin=GAS_SKIN, peers=("liggghts", "lammps")),
 ]
 
 
@@ -119,6 +121,18 @@ def gas():
     ]
 
 
+def particles(scene):
+    """Rows of the particles of a scene: x, y, z, radius, and velocities where they have any."""
+    if scene.bonds:
+        return block()
+    return bimodal() if scene.spheres == "bimodal" else gas() if scene.spheres == "gas" else packing(scene.copies)
+
+
+def gravity(scene):
+    """Gravity of a scene [m/s2], downwards."""
+    return 0.0 if scene.bonds or scene.spheres == "gas" else 9.81
+
+
 def box(scene):
     """Walls of a scene [m]."""
     if scene.spheres:
@@ -134,13 +148,12 @@ def time_step(scene):
 
 def cograin(scene, steps, threads, folder):
     """Scene file and particles; returns the arguments of the program."""
-    makers = {"bimodal": bimodal, "gas": gas}
-    rows = block() if scene.bonds else makers[scene.spheres]() if scene.spheres else packing(scene.copies)
+    rows = particles(scene)
     columns = "x,y,z,radius,vx,vy,vz" if scene.bonds or scene.spheres else "x,y,z,radius"
     if not (folder / "bed.csv").exists():
         (folder / "bed.csv").write_text("\n".join([columns, *(",".join(map(repr, row)) for row in rows), ""]))
     step = time_step(scene)
-    text = f"gravity = [0.0, 0.0, {0.0 if scene.bonds or scene.spheres == 'gas' else -9.81}]\n[run]\nend = {steps * step!r}\nstep = {step!r}\n"
+    text = f"gravity = [0.0, 0.0, {0.0 - gravity(scene)}]\n[run]\nend = {steps * step!r}\nstep = {step!r}\n"
     text += f"threads = {threads}\n[material.grain]\nyoungs_modulus = {YOUNGS_MODULUS!r}\n"
     text += f"poissons_ratio = {POISSONS_RATIO}\ndensity = {DENSITY}\n"
     text += '[particles.bed]\nmaterial = "grain"\nfile = "bed.csv"\n'
@@ -218,7 +231,7 @@ def data_file(path, rows, walls, style, held=None):
         for number, (x, y, z, radius, *_) in enumerate(rows, 1):
             kind = f"1 {2 if held(z) else 1}" if held else "1"
             file.write(f"{number} {kind} {2 * radius!r} {DENSITY} {x!r} {y!r} {z!r}\n")
-        if held:
+        if len(rows[0]) > 4:
             file.write("\nVelocities\n\n")
             for number, row in enumerate(rows, 1):
                 file.write(f"{number} {row[4]!r} {row[5]!r} {row[6]!r} 0 0 0\n")
@@ -226,7 +239,7 @@ def data_file(path, rows, walls, style, held=None):
 
 def liggghts(scene, steps, _threads, folder):
     """Deck of LIGGGHTS; returns the arguments of the program."""
-    data_file(folder / "particles.data", packing(scene.copies), box(scene), "")
+    data_file(folder / "particles.data", particles(scene), box(scene), "")
     style = "model hertz tangential history"
     properties = [
         ("youngsModulus", "peratomtype", YOUNGS_MODULUS),
@@ -239,7 +252,7 @@ def liggghts(scene, steps, _threads, folder):
         properties.append(("cohesionEnergyDensity", "peratomtypepair 1", COHESION_ENERGY_DENSITY))
         properties.append(("coefficientRollingFriction", "peratomtypepair 1", ROLLING_FRICTION))
     text = "atom_style granular\natom_modify map array\nboundary f f f\nnewton off\ncommunicate single vel yes\nunits si\n"
-    text += f"read_data particles.data\nneighbor {SKIN} bin\nneigh_modify delay 0\n"
+    text += f"read_data particles.data\nneighbor {scene.skin} bin\nneigh_modify delay 0\n"
     for number, (name, kind, value) in enumerate(properties):
         text += f"fix m{number} all property/global {name} {kind} {value}\n"
     text += f"pair_style gran {style}\npair_coeff * *\n"
@@ -254,7 +267,7 @@ def liggghts(scene, steps, _threads, folder):
                 text += f"fix w{axis}{name} all wall/gran {style} primitive type 1 {axis}plane {place!r}\n"
     if meshes:
         text += f"fix walls all wall/gran {style} mesh n_meshes {len(meshes)} meshes {' '.join(meshes)}\n"
-    text += f"fix g all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\ntimestep {time_step(scene)!r}\n"
+    text += f"fix g all gravity {gravity(scene)} vector 0 0 -1\nfix integrate all nve/sphere\ntimestep {time_step(scene)!r}\n"
     text += f"thermo {steps}\nthermo_style custom step atoms ke\nrun {steps}\n"
     (folder / f"{steps}.lig").write_text(text)
     return ["-in", f"{steps}.lig", "-log", "none"]
@@ -272,7 +285,7 @@ def lammps(scene, steps, threads, folder):
 def lammps_contacts(scene, folder):
     """`gran/hertz/history`, its damping that of a typical contact; with rolling `granular`, which costs as much as the
     same physics would."""
-    data_file(folder / "particles.data", packing(scene.copies), box(scene), " # sphere")
+    data_file(folder / "particles.data", particles(scene), box(scene), " # sphere")
     modulus, ratio = YOUNGS_MODULUS, POISSONS_RATIO
     tangential = math.sqrt(2 * (1 - ratio) / (2 - ratio))
     if scene.rolling:
@@ -290,10 +303,10 @@ def lammps_contacts(scene, folder):
         law = f"hertz/history {normal} {shear} {damping} {damping * tangential} {FRICTION} 1"
         wall, pair = law, f"pair_style gran/{law}\npair_coeff * *\n"
     text = "units si\natom_style sphere\natom_modify map array\nboundary f f f\nnewton off\ncomm_modify vel yes\n"
-    text += f"read_data particles.data\nneighbor {SKIN} bin\nneigh_modify delay 0 every 1 check yes\n{pair}"
+    text += f"read_data particles.data\nneighbor {scene.skin} bin\nneigh_modify delay 0 every 1 check yes\n{pair}"
     for axis, (low, high) in zip("xyz", box(scene)):
         text += f"fix w{axis} all wall/gran {wall} {axis}plane {low!r} {high!r}\n"
-    return text + "fix g all gravity 9.81 vector 0 0 -1\nfix integrate all nve/sphere\n"
+    return text + f"fix g all gravity {gravity(scene)} vector 0 0 -1\nfix integrate all nve/sphere\n"
 
 
 def lammps_bonds(folder):

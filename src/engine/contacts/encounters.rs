@@ -13,6 +13,9 @@ use crate::engine::state::contacts::{TOUCHING, is_suppressed};
 use crate::engine::state::{State, WallContacts};
 use crate::laws::contact::{Contact, Law, MOST_HISTORY};
 
+/// What rounding may add to a bound, over it.
+const ROUNDING: f64 = 1e-9;
+
 /// How two bodies meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Meetings {
@@ -39,7 +42,7 @@ pub(crate) struct Energies {
 
 /// What is looked at, and what was found.
 pub(crate) struct Encounters<'a> {
-    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them boundaries.
+    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them boundaries, then clumps.
     contacts: Vec<u8>,
     /// Gravity and applied forces.
     fields: &'a Fields,
@@ -51,6 +54,8 @@ pub(crate) struct Encounters<'a> {
     whole: bool,
     /// Time in which contacts to come count \[s\].
     time: f64,
+    /// Largest acceleration by gravity and applied forces \[m/s²\].
+    acceleration: f64,
     /// What was found.
     pub energies: Energies,
 }
@@ -77,7 +82,7 @@ impl<'a> Encounters<'a> {
         (whole, time): (bool, f64),
     ) -> Self {
         contacts.clear();
-        contacts.resize(state.particles.len() + state.boundaries.len(), 0);
+        contacts.resize(state.particles.len() + state.boundaries.len() + state.clumps.len(), 0);
         let mut count = |slot: u32| {
             let place = &mut contacts[mover(state, slot)];
             *place = (*place + 1).min(2);
@@ -102,7 +107,8 @@ impl<'a> Encounters<'a> {
             // Whatever else it touches, a bonded body is not alone.
             list.first.iter().chain(&list.second).for_each(|&slot| (0..2).for_each(|_| count(slot)));
         }
-        Self { contacts, fields, bodies, speeds, whole, time, energies: Energies::default() }
+        let acceleration = fields.acceleration(&state.particles);
+        Self { contacts, fields, bodies, speeds, whole, time, acceleration, energies: Energies::default() }
     }
 
     /// The room for the numbers of contacts, for the next look.
@@ -129,6 +135,27 @@ impl<'a> Encounters<'a> {
         }
     }
 
+    /// How much nearer two particles (slots) can come to each other in the time that counts, at most \[m\]: which pairs need no closer look.
+    fn reach(&self, state: &State, slots: [u32; 2]) -> f64 {
+        if state.cell.is_some() || self.time.is_infinite() {
+            return f64::INFINITY; // velocities in a cell are relative to the streaming motion
+        }
+        let [v, u] = slots.map(|slot| Vector::from(state.particles.velocity[slot as usize]));
+        let gained = slots.map(|slot| self.gained(state, slot));
+        ((v - u).length() + gained[0] + gained[1] + self.acceleration * self.time) * self.time * (1.0 + ROUNDING)
+    }
+
+    /// What the group of a particle (slot) may add to its speed \[m/s\].
+    fn gained(&self, state: &State, slot: u32) -> f64 {
+        let now = || Vector::from(state.particles.velocity[slot as usize]).length();
+        state.particles.group(slot as usize).map_or(0.0, |group| self.gained_by(group, now()))
+    }
+
+    /// What a boundary of this speed may gain \[m/s\].
+    fn gained_by(&self, boundary: usize, now: f64) -> f64 {
+        self.speeds.get(boundary).map_or(0.0, |speed| speed - now).max(0.0)
+    }
+
     /// Adds what a contact holds, or will hold.
     pub(crate) fn add(
         &mut self,
@@ -140,7 +167,6 @@ impl<'a> Encounters<'a> {
         let (mass, velocity, overlap) = (contact.mass, contact.normal_velocity, contact.overlap);
         // Attraction holds energy below 0.
         let elastic = || law.normal_energy(row, contact, 0.0, &[[0.0; 4]; MOST_HISTORY]).max(0.0);
-        let gained = |boundary: usize, now: f64| (self.speeds.get(boundary).map_or(0.0, |speed| speed - now)).max(0.0);
         match meeting {
             Meetings::Packed => self.energies.packed += 0.5 * mass * velocity * velocity + elastic(),
             Meetings::Impact => {
@@ -150,17 +176,12 @@ impl<'a> Encounters<'a> {
                 self.energies.impacts += (energy - held).max(0.0);
             }
             Meetings::ComingImpact | Meetings::ComingPacked => {
-                let of_group = |slot: u32| {
-                    let [x, y, z, _] = state.particles.velocity[slot as usize];
-                    let group = state.particles.group(slot as usize)?;
-                    Some(gained(group, Vector::new(x, y, z).length()))
-                };
                 let of_surface = |boundary: u32| {
                     let moved = &state.boundaries[boundary as usize];
-                    gained(boundary as usize, Vector::from(moved.velocity).length())
+                    self.gained_by(boundary as usize, Vector::from(moved.velocity).length())
                 };
-                let extra = of_group(first).unwrap_or(0.0)
-                    + second.and_then(of_group).unwrap_or(0.0)
+                let extra = self.gained(state, first)
+                    + second.map_or(0.0, |second| self.gained(state, second))
                     + boundary.map_or(0.0, of_surface);
                 let acceleration = self.closing(state, contact, first, second);
                 let closing = extra - velocity;
@@ -184,7 +205,8 @@ impl<'a> Encounters<'a> {
         let of = |slot: u32| {
             let (mass, id) = (state.particles.velocity[slot as usize][3], state.particles.id[slot as usize]);
             let group = state.particles.group(slot as usize);
-            let moves = group.is_none_or(|group| self.bodies[group].as_ref().is_some_and(RigidBody::is_free));
+            let body = group.and_then(|group| self.bodies.get(group));
+            let moves = body.is_none_or(|body| body.as_ref().is_some_and(RigidBody::is_free));
             if moves { Vector::from(self.fields.loads(mass, id)) * (1.0 / mass) } else { Vector::zero() }
         };
         let relative = of(first) - second.map_or(Vector::zero(), of);
@@ -198,7 +220,11 @@ pub(crate) fn of_list(list: &impl ContactEntries, state: &State, found: &mut Enc
     for (entry, &flags) in kept.flags.iter().enumerate() {
         let bodies @ (first, second, _) = list.bodies(state, entry);
         let Some(meeting) = found.meeting(state, (first, second), || touches(flags)) else { continue };
-        let Some(met) = list.meet(state, entry, f64::INFINITY, Motion::Present) else { continue };
+        let gap = match (meeting, second) {
+            (Meetings::ComingImpact | Meetings::ComingPacked, Some(second)) => found.reach(state, [first, second]),
+            _ => f64::INFINITY,
+        };
+        let Some(met) = list.meet(state, entry, gap, Motion::Present) else { continue };
         found.add(meeting, (law, met.row, &met.contact), state, bodies);
     }
 }

@@ -4,66 +4,177 @@ mod braking;
 mod damped;
 mod fields;
 
-pub(crate) use fields::Fields;
+pub(crate) use fields::{Fields, Load};
 
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::{self, Kernel, Lane, Shared};
+use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::state::{Particles, Row};
 
 /// Moves free particles by half a kick and a drift of `step` \[s\] and sets all loads to zero. Returns the largest
 /// speed \[m/s\].
 pub(crate) fn kick_and_drift(particles: &mut Particles, step: f64, turning: bool, context: &Context) -> f64 {
-    let rows = Rows::of(particles);
-    let square = |piece| {
-        let mut fastest = 0.0;
-        lanes::run(context.width, First { rows, piece, step, turning, fastest: &mut fastest });
-        fastest
-    };
-    context.fold(rows.pieces(), square, 0.0, f64::max).sqrt()
+    sweep(First { rows: Rows::of(particles), step, turning }, context)
 }
 
-/// The first half of a kick and the drift, on one piece.
-struct First<'a, 'b> {
+/// Half a kick of some particles.
+trait HalfKick: Copy + Send + Sync {
     /// The particles.
-    rows: Rows<'a>,
+    fn rows(&self) -> &Rows<'_>;
+
+    /// Makes it for [`Lane::WIDTH`] consecutive particles that move by the forces on them. Notes their largest squared speed
+    /// \[m²/s²\], and beside it something that is not finite where a velocity or force is not.
+    ///
+    /// # Safety
+    /// All are particles, and no other thread reads or writes their rows meanwhile.
+    unsafe fn free<N: Lane>(&self, slot: usize, found: &mut [N; 2]);
+
+    /// What becomes of a particle that something else moves.
+    ///
+    /// # Safety
+    /// As for [`HalfKick::free`].
+    unsafe fn held(&self, slot: usize);
+}
+
+/// Makes half a kick of all particles. Returns the largest speed, or something that is not finite \[m/s\].
+fn sweep<K: HalfKick>(kick: K, context: &Context) -> f64 {
+    let square = |piece| {
+        let mut fastest = 0.0;
+        lanes::run(context.width, Piece { kick, piece, fastest: &mut fastest });
+        fastest
+    };
+    context.fold(kick.rows().pieces(), square, 0.0, larger).sqrt()
+}
+
+/// Half a kick of one piece.
+struct Piece<'a, K> {
+    /// What is done.
+    kick: K,
     /// Which piece.
     piece: usize,
+    /// Largest squared speed, or something that is not finite \[m²/s²\].
+    fastest: &'a mut f64,
+}
+
+impl<K: HalfKick> Kernel for Piece<'_, K> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { kick, piece, fastest } = self;
+        let slots = kick.rows().slots(piece);
+        let owner = &kick.rows().owner[..slots.end];
+        let (mut several, mut single) = ([N::zero(); 2], [0.0; 2]);
+        let mut slot = slots.start;
+        while slot < slots.end {
+            let some = &owner[slot..];
+            // SAFETY: pieces do not overlap, and each is worked on by one thread.
+            unsafe {
+                if some.len() >= N::WIDTH && some[..N::WIDTH].iter().fold(0, |any, owner| any | owner) == 0 {
+                    kick.free(slot, &mut several);
+                    slot += N::WIDTH;
+                    continue;
+                }
+                if some[0] == 0 {
+                    kick.free(slot, &mut single);
+                } else {
+                    kick.held(slot);
+                }
+            }
+            slot += 1;
+        }
+        let mut columns = [[0.0; 8]; 2];
+        lanes::put(&mut columns, 0, several);
+        let [most, finite] = single;
+        *fastest =
+            columns[0].into_iter().fold(most, larger) + columns[1].into_iter().fold(finite, |sum, one| sum + one);
+    }
+}
+
+/// The larger one, or what is not a number.
+fn larger(most: f64, one: f64) -> f64 {
+    if one > most || one.is_nan() { one } else { most }
+}
+
+/// Reads consecutive rows: a vector and a fourth number for each.
+///
+/// # Safety
+/// There are [`Lane::WIDTH`] rows at this slot.
+#[inline(always)]
+unsafe fn load<N: Lane>(rows: Shared<Row>, slot: usize) -> (Vector<N>, N) {
+    // SAFETY: the caller's promise.
+    let columns = unsafe { N::load_block(rows.pointer().add(slot)) };
+    (Vector::of_row(columns), columns[3])
+}
+
+/// Writes consecutive rows.
+///
+/// # Safety
+/// As for [`load`]; no other thread reads or writes them meanwhile.
+#[inline(always)]
+unsafe fn store<N: Lane>(rows: Shared<Row>, slot: usize, vector: Vector<N>, rest: N) {
+    // SAFETY: the caller's promise.
+    unsafe { N::store_block(vector.row_with(rest), rows.pointer().add(slot)) }
+}
+
+/// The first half of a kick, and the drift.
+#[derive(Clone, Copy)]
+struct First<'a> {
+    /// The particles.
+    rows: Rows<'a>,
     /// The time step \[s\].
     step: f64,
     /// Whether particles turn.
     turning: bool,
-    /// Largest squared speed \[m²/s²\].
-    fastest: &'b mut f64,
 }
 
-impl Kernel for First<'_, '_> {
+impl First<'_> {
+    /// Sets loads to zero.
+    ///
+    /// # Safety
+    /// As for [`HalfKick::free`].
     #[inline(always)]
-    fn run<N: Lane>(self) {
-        let Self { rows, piece, step, turning, fastest } = self;
-        let half = 0.5 * step;
-        let mut most = 0.0;
-        for slot in rows.slots(piece) {
-            // SAFETY: pieces do not overlap, and each is worked on by one thread.
-            let body = unsafe { rows.body(slot) };
-            if rows.owner[slot] == 0 {
-                let (velocity, force) = (*body.velocity, *body.force);
-                let v = plus(velocity, force, half / velocity[3]);
-                *body.velocity = v;
-                *body.position = plus(*body.position, [v[0], v[1], v[2], 0.0], step);
-                if turning {
-                    let (spin, torque) = (*body.spin, *body.torque);
-                    *body.spin = plus(spin, torque, half / spin[3]);
-                }
-                let square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-                most = if square > most { square } else { most };
-            }
-            *body.force = [0.0; 4];
-            if turning {
-                *body.torque = [0.0; 4];
+    unsafe fn clear(&self, slot: usize, count: usize) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.rows.force.part(slot, slot + count).fill([0.0; 4]);
+            if self.turning {
+                self.rows.torque.part(slot, slot + count).fill([0.0; 4]);
             }
         }
-        *fastest = most;
+    }
+}
+
+impl HalfKick for First<'_> {
+    #[inline(always)]
+    fn rows(&self) -> &Rows<'_> {
+        &self.rows
+    }
+
+    #[inline(always)]
+    unsafe fn free<N: Lane>(&self, slot: usize, [most, _]: &mut [N; 2]) {
+        let (Rows { position, velocity, spin, force, torque, .. }, step) = (self.rows, N::splat(self.step));
+        let half = N::splat(0.5 * self.step);
+        // SAFETY: the caller's promise.
+        unsafe {
+            let ((v, mass), (f, _)) = (load::<N>(velocity, slot), load(force, slot));
+            let v = v + f * (half / mass);
+            store(velocity, slot, v, mass);
+            let (place, radius) = load(position, slot);
+            store(position, slot, place + v * step, radius);
+            if self.turning {
+                let ((w, inertia), (t, _)) = (load::<N>(spin, slot), load(torque, slot));
+                store(spin, slot, w + t * (half / inertia), inertia);
+            }
+            self.clear(slot, N::WIDTH);
+            let square = v.dot(v);
+            *most = N::select(square.greater(*most), square, *most);
+        }
+    }
+
+    #[inline(always)]
+    unsafe fn held(&self, slot: usize) {
+        // SAFETY: the caller's promise.
+        unsafe { self.clear(slot, 1) }
     }
 }
 
@@ -90,67 +201,78 @@ pub(crate) fn kick_again(
     turning: bool,
     context: &Context,
 ) -> f64 {
-    let rows = Rows::of(particles);
-    let square = |piece| {
-        let mut fastest = 0.0;
-        lanes::run(context.width, Second { rows, piece, gravity, step, turning, fastest: &mut fastest });
-        fastest
-    };
-    let larger = |most: f64, one: f64| if one > most || one.is_nan() { one } else { most };
-    context.fold(rows.pieces(), square, 0.0, larger).sqrt()
+    sweep(Second { rows: Rows::of(particles), gravity, step, turning }, context)
 }
 
-/// The second half of a kick, on one piece.
-struct Second<'a, 'b> {
+/// The second half of a kick.
+#[derive(Clone, Copy)]
+struct Second<'a> {
     /// The particles.
     rows: Rows<'a>,
-    /// Which piece.
-    piece: usize,
     /// Gravity that is not yet among the forces \[m/s²\].
     gravity: Option<[f64; 3]>,
     /// The time step \[s\].
     step: f64,
     /// Whether particles turn.
     turning: bool,
-    /// Largest squared speed at the middle of the next step; NaN if any velocity or force is NaN \[m²/s²\].
-    fastest: &'b mut f64,
 }
 
-impl Kernel for Second<'_, '_> {
+impl Second<'_> {
+    /// Loads the forces, with the weight.
+    ///
+    /// # Safety
+    /// As for [`HalfKick::free`].
     #[inline(always)]
-    fn run<N: Lane>(self) {
-        let Self { rows, piece, gravity, step, turning, fastest } = self;
-        let half = 0.5 * step;
-        let mut most = 0.0;
-        // Zero times what is finite is zero; times anything else it is not a number.
-        let mut sums = [[0.0; 4]; 2];
-        for slot in rows.slots(piece) {
-            // SAFETY: pieces do not overlap, and each is worked on by one thread.
-            let body = unsafe { rows.body(slot) };
-            let (velocity, mut force) = (*body.velocity, *body.force);
-            if let Some([x, y, z]) = gravity {
-                force = plus(force, [x, y, z, 0.0], velocity[3]);
-                *body.force = force;
+    unsafe fn weigh<N: Lane>(&self, slot: usize, mass: N) -> Vector<N> {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let (mut force, rest) = load::<N>(self.rows.force, slot);
+            if let Some([x, y, z]) = self.gravity {
+                force += Vector::new(N::splat(x), N::splat(y), N::splat(z)) * mass;
+                store(self.rows.force, slot, force, rest);
             }
-            if rows.owner[slot] != 0 {
-                continue;
-            }
-            let factor = half / velocity[3];
-            let v = plus(velocity, force, factor);
-            *body.velocity = v;
-            let next = plus(v, force, factor);
-            let square = next[0] * next[0] + next[1] * next[1] + next[2] * next[2];
-            sums[0] = plus(sums[0], next, 0.0);
-            most = if square > most { square } else { most };
-            if turning {
-                let (spin, torque) = (*body.spin, *body.torque);
-                let w = plus(spin, torque, half / spin[3]);
-                *body.spin = w;
-                sums[1] = plus(sums[1], w, 0.0);
+            force
+        }
+    }
+}
+
+impl HalfKick for Second<'_> {
+    #[inline(always)]
+    fn rows(&self) -> &Rows<'_> {
+        &self.rows
+    }
+
+    /// The speed is that at the middle of the next step.
+    #[inline(always)]
+    unsafe fn free<N: Lane>(&self, slot: usize, [most, check]: &mut [N; 2]) {
+        let (Rows { velocity, spin, torque, .. }, half) = (self.rows, N::splat(0.5 * self.step));
+        // SAFETY: the caller's promise.
+        unsafe {
+            let (v, mass) = load::<N>(velocity, slot);
+            let change = self.weigh(slot, mass) * (half / mass);
+            let v = v + change;
+            store(velocity, slot, v, mass);
+            let next = v + change;
+            let square = next.dot(next);
+            *most = N::select(square.greater(*most), square, *most);
+            // Zero times what is finite is zero; times anything else it is not a number.
+            *check = *check + square * N::zero();
+            if self.turning {
+                let ((w, inertia), (t, _)) = (load::<N>(spin, slot), load(torque, slot));
+                let w = w + t * (half / inertia);
+                store(spin, slot, w, inertia);
+                *check = *check + (w.x + w.y + w.z) * N::zero();
             }
         }
-        let sum = plus(sums[0], sums[1], 1.0);
-        *fastest = most + (sum[0] + sum[1] + sum[2] + sum[3]);
+    }
+
+    #[inline(always)]
+    unsafe fn held(&self, slot: usize) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            let (_, mass) = load::<f64>(self.rows.velocity, slot);
+            self.weigh(slot, mass);
+        }
     }
 }
 

@@ -269,6 +269,16 @@ pub enum RunError {
         /// How far it would jump \[m\].
         way: f64,
     },
+    /// A clump of a scene that takes over another one's state would have to jump.
+    #[error(
+        "expected clumps as the checkpoint's scene has them, found sphere {id} elsewhere in its clump, by {way:.3e} m"
+    )]
+    ClumpElsewhere {
+        /// The sphere.
+        id: u32,
+        /// How far it would jump \[m\].
+        way: f64,
+    },
     /// A number of the state cannot be.
     #[error(
         "expected {expected} in {part}, found another at its place {place} at t = {time} s: values of the scene are too large or too small for \

@@ -59,6 +59,18 @@ impl Simulation {
                 return Err(self.runaway(member, way / body.smallest, cause));
             }
         }
+        let clumps = &self.state.clumps;
+        for (bodies, clump) in
+            self.clumps.iter().flat_map(|bodies| (0..bodies.count()).map(move |clump| (bodies, clump)))
+        {
+            let (smallest, way) = (clumps.moments[clump][3], step * bodies.speed_after(clumps, clump, step));
+            if way > RUNAWAY * smallest {
+                let now = bodies.speed_after(clumps, clump, 0.0);
+                let force = Vector::from(clumps.force[clump]).length();
+                let cause = self.cause_of_displacement(step, now, force, step * now > 0.5 * way);
+                return Err(self.runaway(self.scene.clumps[clump].first, way / smallest, cause));
+            }
+        }
         Ok(())
     }
 
@@ -245,6 +257,7 @@ impl Simulation {
             | RunError::TooShort { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
+            | RunError::ClumpElsewhere { .. }
             | RunError::Collapsed { .. }
             | RunError::NoNumberLeft { .. }
             | RunError::Memory { .. } => {}

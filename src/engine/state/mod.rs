@@ -8,6 +8,7 @@ pub mod boundaries;
 pub mod cell;
 mod check;
 pub mod clock;
+pub mod clumps;
 pub mod contacts;
 pub mod exchange;
 pub mod foresight;
@@ -28,6 +29,7 @@ pub use cell::CellState;
 pub use check::StateFault;
 pub(crate) use check::demand;
 pub use clock::{Clock, Underway};
+pub use clumps::Clumps;
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use exchange::Exchange;
 pub use foresight::Foresight;
@@ -58,6 +60,8 @@ pub struct State {
     pub pace: Pace,
     /// Positions, velocities, forces.
     pub particles: Particles,
+    /// Clumps, whose spheres are among them.
+    pub clumps: Clumps,
     /// When and for where the lists below were made.
     pub neighbours: Neighbours,
     /// Coefficients of each contact law: a row for each two materials, row by row; zeros where it does not govern them.
@@ -98,6 +102,7 @@ clone_in_place!(State {
     foresight,
     pace,
     particles,
+    clumps,
     neighbours,
     coefficients,
     tuned,
@@ -124,6 +129,17 @@ impl State {
     /// The same, to be changed.
     pub(crate) fn nodes_of_mut(&mut self, boundary: usize) -> Option<&mut Nodes> {
         self.nodes.iter_mut().find(|nodes| nodes.boundary as usize == boundary)
+    }
+
+    /// The clump to which the particle in a slot belongs.
+    pub(crate) fn clump(&self, slot: usize) -> Option<usize> {
+        if self.clumps.is_empty() { None } else { self.particles.group(slot)?.checked_sub(self.boundaries.len()) }
+    }
+
+    /// Whether two particles (slots) are spheres of one clump.
+    pub(crate) fn are_of_one_clump(&self, a: u32, b: u32) -> bool {
+        let of = |slot: u32| self.clump(slot as usize);
+        of(a).is_some() && of(a) == of(b)
     }
 
     /// Where the particle in a slot has come to without being brought back into a periodic cell; elsewhere where it is \[m\].

@@ -129,7 +129,9 @@ pub(super) static OF_CELLS: [Row; 12] = [
         description: "mean unbalanced force of the particles over the mean normal force of their contacts, or, where none presses, \
                       the mean force of the bonds: near 0 at rest; 0, too, where nothing holds together",
         minimum: Some(0.0),
-        read: |now, _| Value::Real(Some(now.simulation.unbalanced_force()).filter(|ratio| ratio.is_finite()).unwrap_or(0.0)),
+        read: |now, _| {
+            Value::Real(Some(now.simulation.unbalanced_force()).filter(|ratio| ratio.is_finite()).unwrap_or(0.0))
+        },
         ..OF_CELL
     },
 ];
