@@ -1,4 +1,4 @@
-//! Random scenes with the default time step against the same with a tenth of it. Prints each that differs, that stops or that
+//! Random scenes with the default time step against the same with a fine one. Prints each that differs, that stops or that
 //! is refused, and how many there were: `cargo bench --bench random_scenes -- 1 200` tries seeds 1 to 200; another part of the
 //! stable step (`0.8`) and a scheme may follow.
 
@@ -13,13 +13,13 @@ mod compare;
 #[path = "../tests/random_scenes/scenes.rs"]
 mod scenes;
 
-use compare::{ALLOWED, Agreement, DEFAULT, Outcome, judge};
+use compare::{ALLOWED, Agreement, Outcome, judge};
 
 fn main() {
     let seeds: Vec<u64> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
     let &[first, last] = seeds.as_slice() else { return };
     let others = || std::env::args().skip(1).filter(|word| word.parse::<u64>().is_err() && !word.starts_with('-'));
-    let part = others().find_map(|word| word.parse().ok()).unwrap_or(DEFAULT);
+    let part = others().find_map(|word| word.parse().ok());
     let scheme = others().find(|word| word.parse::<f64>().is_err());
     let lines = scheme.map_or(String::new(), |scheme| format!("scheme = \"{scheme}\""));
     let (mut agree, mut whole, mut differ, mut stopped, mut refused) = (0, 0, 0, 0, 0);

@@ -440,6 +440,22 @@ fn a_servo_reaches_its_stress() {
 }
 
 #[test]
+fn a_stress_that_a_servo_does_not_reach_is_remarked() {
+    let remarked = |stress: &str| {
+        let more = format!("motion = {{ servo = {{ yy = {{ stress = {stress}, max_rate = 5.0 }} }} }}");
+        let mut simulation = start(&dense(ROUGH, &more));
+        simulation.advance(1e-3).unwrap();
+        simulation.advance(1e-3).unwrap();
+        let told = cograin::run::remarks(simulation.scene(), &simulation);
+        told.into_iter().find(|remark| remark.starts_with("[cell] servo: "))
+    };
+    // Grains that do not stick bear no tension.
+    let told = remarked("1e4").unwrap();
+    assert!(told.starts_with("[cell] servo: yy has ") && told.ends_with(", to be 1.0000e4 Pa"), "{told}");
+    assert!(told.contains(" Pa in the last interval"), "{told}");
+}
+
+#[test]
 fn a_plane_along_the_edges_that_repeat_carries_the_weight() {
     let [law, pair] = ROUGH;
     let mut list = Vec::new();

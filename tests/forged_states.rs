@@ -340,6 +340,24 @@ fn a_state_is_refused_with_the_part_that_cannot_be() {
 }
 
 #[test]
+fn a_step_after_which_a_sum_of_the_books_is_infinite_ends_in_words() {
+    let scene = scene_with(&SCENE.replace("energy = true", "energy = true\nlosses = true"));
+    let simulation = Simulation::new(Arc::clone(&scene)).unwrap();
+    let huge: [fn(&mut State); 4] = [
+        |state| state.ledger.as_mut().unwrap().work[..2].fill(f64::MAX),
+        |state| state.losses.as_mut().unwrap().taken[..2].fill(f64::MAX),
+        |state| state.bonds.iter_mut().for_each(|list| list.damped = f64::MAX),
+        |state| state.boundaries.iter_mut().for_each(|boundary| boundary.work = f64::MAX),
+    ];
+    for change in huge {
+        let mut state = simulation.state().clone();
+        change(&mut state);
+        let message = Simulation::resume(Arc::clone(&scene), state).unwrap().advance(2.0e-6).unwrap_err().to_string();
+        assert!(message.starts_with("what the energy books sum up is not finite at t = 0.000002 s: "), "{message}");
+    }
+}
+
+#[test]
 fn bytes_of_another_schema_are_refused_in_words() {
     let scene = scene();
     let mut bytes = Simulation::new(Arc::clone(&scene)).unwrap().state().to_bytes(scene.fingerprint);

@@ -12,6 +12,7 @@ mod bonded_exchange;
 mod bonds;
 mod books;
 mod cell;
+mod clumps;
 mod coefficients;
 mod derivatives;
 mod every_law;

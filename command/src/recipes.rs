@@ -58,6 +58,8 @@ recipes! {
     "loaded_beam" "grains on a floor that an elastic beam carries":
         "scene.toml" "../recipes/loaded_beam/scene.toml",
         "couple.py" "../recipes/loaded_beam/couple.py";
+    "clumps" "ballast: stones of four spheres fall into a box":
+        "scene.toml" "../recipes/clumps/scene.toml";
 }
 
 /// `cograin new`

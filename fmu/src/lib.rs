@@ -35,7 +35,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr::{self, null_mut};
 use types::{Boolean, Callbacks, Component, StateHandle, Status, Text};
 
-/// Stands in every library of units of this version: [`LIBRARY_MARK`].
+/// Stands in every library of units from these sources: [`LIBRARY_MARK`].
 pub const MARK: [u8; LIBRARY_MARK.len()] = {
     let mut bytes = [0; LIBRARY_MARK.len()];
     bytes.copy_from_slice(LIBRARY_MARK.as_bytes());

@@ -4,6 +4,7 @@ pub mod averages;
 pub(crate) mod bonds;
 pub(crate) mod boundaries;
 pub(crate) mod cell;
+pub(crate) mod clumps;
 pub(crate) mod contacts;
 pub(crate) mod energy;
 pub(crate) mod flow;

@@ -9,6 +9,7 @@ mod body;
 mod boundary;
 pub(crate) mod cell;
 mod checked;
+pub(crate) mod clump;
 mod damping;
 pub mod exchange;
 pub(crate) mod file;
@@ -35,6 +36,7 @@ pub use body::Body;
 pub use boundary::Boundary;
 pub use cell::{Cell, CellMotion, StressServo};
 pub use checked::Scene;
+pub use clump::{Clump, ClumpShape};
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
@@ -101,6 +103,10 @@ pub struct SceneDraft {
     pub sets: Vec<String>,
     /// All particles of all sets, by ascending id.
     pub particles: Vec<Particle>,
+    /// Shapes of clumps, in the order of the file.
+    pub clump_shapes: Vec<ClumpShape>,
+    /// Clumps, whose spheres are among the particles.
+    pub clumps: Vec<Clump>,
     /// Boundaries, in the order of the file.
     pub boundaries: Vec<Boundary>,
     /// Cundall damping; a particle belongs to at most one.

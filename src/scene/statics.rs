@@ -24,6 +24,10 @@ impl SceneDraft {
         if self.cell.is_some() {
             return Some(("[cell]".to_owned(), "a scene without a periodic cell"));
         }
+        if let Some(clump) = self.clumps.first() {
+            let name = &self.clump_shapes[clump.shape as usize].name;
+            return Some((format!("[clump.{name}]"), "a scene without clumps"));
+        }
         let moves = self.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free()))?;
         Some((format!("[boundary.{}] moved by forces", moves.name), "a boundary that is led or fixed"))
     }

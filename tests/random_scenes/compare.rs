@@ -16,10 +16,10 @@ const INTERVAL: f64 = 1e-4;
 /// Communication steps of which means are compared.
 const WINDOW: usize = 8;
 
-/// Part of the stable step by default.
-pub(crate) const DEFAULT: f64 = 0.2;
+/// The step to be judged: the default one, or a part of the stable step.
+pub(crate) type Judged = Option<f64>;
 
-/// A tenth of it, and another to see what is chaotic.
+/// Parts of the stable step that are fine, one to compare with and another to see what is chaotic.
 const FINE: [f64; 2] = [0.02, 0.028];
 
 /// Runs in an ensemble.
@@ -87,9 +87,10 @@ const NAMES: [&str; 4] = ["kinetic energy", "elastic energy", "momentum", "impul
 /// Which scale each has.
 const SCALES: [usize; 4] = [0, 0, 1, 2];
 
-/// Runs a scene with this part of the stable step and these lines in `[run]`, for so many communication steps.
-fn run(scene: &Random, part: f64, intervals: usize, lines: &str) -> Result<Course, Outcome> {
-    let text = scene.text.replace("SAFETY", &format!("safety = {part}\n{lines}"));
+/// Runs a scene with the default step or this part of the stable one, and these lines in `[run]`, for so many communication steps.
+fn run(scene: &Random, part: Judged, intervals: usize, lines: &str) -> Result<Course, Outcome> {
+    let safety = part.map_or(String::new(), |part| format!("safety = {part}"));
+    let text = scene.text.replace("SAFETY", &format!("{safety}\n{lines}"));
     let checked: Scene = text.parse().map_err(|errors: SceneErrors| Outcome::Refused(errors.to_string()))?;
     let mut simulation = Simulation::new(Arc::new(checked)).map_err(|error| Outcome::Stopped(error.to_string()))?;
     let mut course = Course { numbers: Vec::new(), scales: [0.0; 3] };
@@ -140,12 +141,12 @@ fn difference(course: &Course, other: &Course, window: usize) -> (f64, &'static 
         .fold((0.0, NAMES[0]), |most, next| if next.0 > most.0 { next } else { most })
 }
 
-/// What becomes of the scene of a seed with this part of the stable step and these lines in `[run]`, in so many communication steps.
-pub(crate) fn judge(seed: u64, intervals: usize, part: f64, lines: &str) -> (String, Outcome) {
+/// What becomes of the scene of a seed with the default step or this part of the stable one, and these lines in `[run]`, in so many communication steps.
+pub(crate) fn judge(seed: u64, intervals: usize, part: Judged, lines: &str) -> (String, Outcome) {
     let scene = random(seed, 0);
     let name = format!("seed {seed}: {}", scene.name);
     let courses: Result<Vec<Course>, Outcome> =
-        [part, FINE[0], FINE[1]].into_iter().map(|part| run(&scene, part, intervals, lines)).collect();
+        [part, Some(FINE[0]), Some(FINE[1])].into_iter().map(|part| run(&scene, part, intervals, lines)).collect();
     let courses = match courses {
         Ok(courses) => courses,
         Err(outcome) => return (name, outcome),
@@ -166,8 +167,8 @@ pub(crate) fn judge(seed: u64, intervals: usize, part: f64, lines: &str) -> (Str
 
 /// The same in these windows, by means over ensembles: two runs have parted there, as a motion is chaotic or as the step is too long.
 /// A step that is too long changes the means.
-fn judge_means(seed: u64, windows: Range<usize>, (part, lines): (f64, &str), mut agreement: Agreement) -> Outcome {
-    let ensembles = [part, FINE[0]].map(|part| ensemble(seed, part, windows.end * WINDOW, lines));
+fn judge_means(seed: u64, windows: Range<usize>, (part, lines): (Judged, &str), mut agreement: Agreement) -> Outcome {
+    let ensembles = [part, Some(FINE[0])].map(|part| ensemble(seed, part, windows.end * WINDOW, lines));
     let [default, fine] = match ensembles {
         [Ok(default), Ok(fine)] => [default, fine],
         [Err(outcome), _] | [_, Err(outcome)] => return outcome,
@@ -185,7 +186,7 @@ fn judge_means(seed: u64, windows: Range<usize>, (part, lines): (f64, &str), mut
 }
 
 /// Runs of a scene that begin a little otherwise, on all processors.
-fn ensemble(seed: u64, part: f64, intervals: usize, lines: &str) -> Result<Vec<Course>, Outcome> {
+fn ensemble(seed: u64, part: Judged, intervals: usize, lines: &str) -> Result<Vec<Course>, Outcome> {
     let next = AtomicU64::new(1);
     let work = || {
         let mut courses = Vec::new();

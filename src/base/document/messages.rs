@@ -7,7 +7,7 @@ use super::single::Error;
 const ABSENT: [(&[&str], &str, &str); 4] = [
     (&["coarse_graining", "coarsegraining", "coarse_grain"], "coarse graining factors", "real radii"),
     (
-        &["shape", "clump", "clumps", "multisphere", "superquadric", "polyhedron", "ellipsoid", "aspect_ratio"],
+        &["shape", "multisphere", "superquadric", "polyhedron", "ellipsoid", "aspect_ratio"],
         "non-spherical bodies",
         "spheres",
     ),

@@ -5,10 +5,11 @@ mod probes;
 pub use probes::{Sight, sights};
 
 use crate::base::number::Vector;
+use crate::engine::clumps;
 use crate::engine::simulation::Simulation;
 use crate::engine::state::State;
 use crate::engine::state::contacts::is_told;
-use crate::scene::Region;
+use crate::scene::{ClumpShape, Region};
 
 /// Rows of a tensor: first index down, second along.
 pub type Tensor = [[f64; 3]; 3];
@@ -16,7 +17,7 @@ pub type Tensor = [[f64; 3]; 3];
 /// The particles in a region, each by the part of its volume that is inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Content {
-    /// Volume of the spheres inside, what they overlap counted twice \[m³\].
+    /// Volume of the particles inside, of spheres of a clump their share of it; what two particles overlap counted twice \[m³\].
     pub solid: f64,
     /// Mass inside \[kg\].
     pub mass: f64,
@@ -53,7 +54,7 @@ impl Coordination {
 
 /// The particles in each region of the scene.
 pub fn contents(simulation: &Simulation) -> Vec<Content> {
-    simulation.scene().regions.iter().map(|region| content(region, simulation.state())).collect()
+    simulation.scene().regions.iter().map(|region| content(region, simulation)).collect()
 }
 
 /// Contacts of the particles in each region of the scene.
@@ -104,16 +105,19 @@ fn shift(region: &Region, state: &State) -> Vector {
 }
 
 /// The particles in a region.
-fn content(region: &Region, state: &State) -> Content {
+fn content(region: &Region, simulation: &Simulation) -> Content {
+    let (scene, state) = (simulation.scene(), simulation.state());
     let (particles, shift) = (&state.particles, shift(region, state));
+    let fullness: Vec<f64> = scene.clump_shapes.iter().map(ClumpShape::fullness).collect();
     let mut inside = Vec::new();
     let mut content = Content::default();
     for (slot, position) in particles.position.iter().enumerate() {
         let radius = position[3];
         let volume = region.shape.volume_of_sphere(Vector::from(*position) - shift, radius);
         if volume > 0.0 {
-            let mass = particles.velocity[slot][3] * (volume / sphere_volume(radius));
-            content.solid += volume;
+            let mass = clumps::mass_of(scene, particles, slot) * (volume / sphere_volume(radius));
+            content.solid +=
+                volume * state.clump(slot).map_or(1.0, |clump| fullness[scene.clumps[clump].shape as usize]);
             content.mass += mass;
             for axis in 0..3 {
                 content.velocity[axis] += mass * particles.velocity[slot][axis];

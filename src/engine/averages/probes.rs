@@ -3,6 +3,7 @@
 use crate::base::geometry::Lattice;
 use crate::base::number::Vector;
 use crate::base::quantity::{ParticleId, SetIndex};
+use crate::engine::clumps;
 use crate::engine::simulation::Simulation;
 use crate::scene::Probed;
 
@@ -63,7 +64,7 @@ fn particle(simulation: &Simulation, slot: usize) -> Sight {
         position: simulation.state().unwrapped(slot),
         velocity: three(particles.velocity[slot]),
         angular_velocity: three(particles.angular_velocity[slot]),
-        force: three(particles.force[slot]),
+        force: clumps::force_on(simulation.scene(), particles, slot),
         torque: three(particles.torque[slot]),
         ..Sight::default()
     }
@@ -75,11 +76,22 @@ fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
     let (mut mass, mut place, mut momentum, mut force) = (0.0, Vector::zero(), Vector::zero(), Vector::zero());
     let members = (0..).zip(&scene.particles).filter(|(_, particle)| particle.set == set);
     for slot in members.filter_map(|(index, _)| particles.slot_of(index)) {
+        if simulation.state().clump(slot).is_some() {
+            continue;
+        }
         let own = particles.velocity[slot][3];
         mass += own;
         place += Vector::from(simulation.state().unwrapped(slot)) * own;
         momentum += Vector::from(particles.velocity[slot]) * own;
         force += Vector::from(particles.force[slot]);
+    }
+    let (clumps, there) = (&simulation.state().clumps, &scene.clumps);
+    for (place_of, _) in there.iter().enumerate().filter(|(_, it)| scene.particles[it.first as usize].set == set) {
+        let own = clumps.velocity[place_of][3];
+        mass += own;
+        place += Vector::from(clumps.position[place_of]) * own;
+        momentum += Vector::from(clumps.velocity[place_of]) * own;
+        force += Vector::from(clumps.force[place_of]);
     }
     if mass == 0.0 {
         return Sight::default();

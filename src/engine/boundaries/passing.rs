@@ -8,7 +8,7 @@
 use crate::base::geometry::Frame;
 use crate::base::number::Vector;
 use crate::engine::state::nodes::farthest;
-use crate::engine::state::{BoundaryState, IMAGE, Nodes, Row, State};
+use crate::engine::state::{BoundaryState, Nodes, Row, State};
 use crate::laws::motion::InputCourse;
 use crate::laws::surface::{Deforming, Features, SLOW, is_skipped};
 use crate::scene::{GoverningLaws, Scene};
@@ -35,7 +35,7 @@ pub(crate) struct MovedParticles<'a> {
     pub(crate) position: &'a [Row],
     /// Velocities in it, and masses.
     pub(crate) velocity: &'a [Row],
-    /// 0, or the boundary that carries the particle and 1.
+    /// What moves each particle ([`crate::engine::state::Particles::owner`]).
     pub(crate) owner: &'a [u32],
     /// The time step \[s\].
     pub(crate) step: f64,
@@ -81,7 +81,10 @@ impl Passing {
     fn origin(&self, boundaries: &[BoundaryState], particles: MovedParticles, slot: usize) -> Vector {
         let centre = Vector::from(particles.position[slot]);
         match particles.owner[slot] {
-            0 | IMAGE => centre - Vector::from(particles.velocity[slot]) * particles.step,
+            // A sphere of a clump was there to the second order of the step.
+            owner if owner == 0 || owner as usize > boundaries.len() => {
+                centre - Vector::from(particles.velocity[slot]) * particles.step
+            }
             owner => {
                 let group = owner as usize - 1;
                 let [before, now] = self.frames(group, &boundaries[group]);

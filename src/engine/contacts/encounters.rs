@@ -42,7 +42,7 @@ pub(crate) struct Energies {
 
 /// What is looked at, and what was found.
 pub(crate) struct Encounters<'a> {
-    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them boundaries.
+    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them boundaries, then clumps.
     contacts: Vec<u8>,
     /// Gravity and applied forces.
     fields: &'a Fields,
@@ -82,7 +82,7 @@ impl<'a> Encounters<'a> {
         (whole, time): (bool, f64),
     ) -> Self {
         contacts.clear();
-        contacts.resize(state.particles.len() + state.boundaries.len(), 0);
+        contacts.resize(state.particles.len() + state.boundaries.len() + state.clumps.len(), 0);
         let mut count = |slot: u32| {
             let place = &mut contacts[mover(state, slot)];
             *place = (*place + 1).min(2);
@@ -205,7 +205,8 @@ impl<'a> Encounters<'a> {
         let of = |slot: u32| {
             let (mass, id) = (state.particles.velocity[slot as usize][3], state.particles.id[slot as usize]);
             let group = state.particles.group(slot as usize);
-            let moves = group.is_none_or(|group| self.bodies[group].as_ref().is_some_and(RigidBody::is_free));
+            let body = group.and_then(|group| self.bodies.get(group));
+            let moves = body.is_none_or(|body| body.as_ref().is_some_and(RigidBody::is_free));
             if moves { Vector::from(self.fields.loads(mass, id)) * (1.0 / mass) } else { Vector::zero() }
         };
         let relative = of(first) - second.map_or(Vector::zero(), of);

@@ -1,6 +1,7 @@
 //! Records of the present contacts and bonds, for outputs.
 
 use crate::base::number::Vector;
+use crate::engine::clumps;
 use crate::engine::state::contacts::SLIDING;
 use crate::engine::state::{History, Row, State};
 use crate::laws::bond::BondLoads;
@@ -107,7 +108,16 @@ impl Motion {
             velocity.iter_mut().zip(stream).for_each(|(sum, part)| *sum += part);
         }
         let Self::HalfStepBack(step) = self else { return (velocity, spin) };
-        if let Some(group) = particles.group(slot) {
+        let group = particles.group(slot);
+        if let Some(clump) = group.and_then(|group| group.checked_sub(state.boundaries.len())) {
+            let [kick, twist] = clumps::last_kick(&state.clumps, clump, step);
+            let arm = Vector::from(particles.position[slot]) - state.clumps.position[clump].into();
+            let (kick, twist) = ((kick + twist.cross(arm)).to_array(), twist.to_array());
+            for axis in 0..3 {
+                velocity[axis] -= kick[axis];
+                spin[axis] -= twist[axis];
+            }
+        } else if let Some(group) = group {
             let moved = &state.boundaries[group];
             let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
             let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();

@@ -9,12 +9,14 @@ pub(crate) use between::PendingWork;
 
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::boundaries::RigidBody;
+use crate::engine::clumps;
 use crate::engine::state::{Particles, Row, State};
 
-/// Kinetic energy of the particles and groups that move by the forces on them \[J\].
+/// Kinetic energy of the particles, groups and clumps that move by the forces on them \[J\].
 pub(crate) fn kinetic(state: &State, bodies: &[Option<RigidBody>], context: &Context) -> f64 {
     let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| Some(body.as_ref()?.kinetic(moved)));
-    groups.fold(of_particles(&state.particles, context), |sum, group| sum + group)
+    let particles = groups.fold(of_particles(&state.particles, context), |sum, group| sum + group);
+    if state.clumps.is_empty() { particles } else { particles + clumps::kinetic(&state.clumps) }
 }
 
 /// Kinetic energy of the particles that move by the forces on them \[J\].

@@ -209,6 +209,28 @@ impl Fields {
         [weight, applied]
     }
 
+    /// Adds weight, applied forces and damping in its place to the load on a clump with this motion, whose first sphere has this index.
+    /// Returns the damping.
+    pub(crate) fn complete(
+        &self,
+        load: &mut Load,
+        (weight, applied): (Load, Load),
+        motion: [Row; 2],
+        first: u32,
+    ) -> Load {
+        let damped = self.damped(first);
+        let part = |is: bool, load: Load| if is { load } else { [Vector::zero(); 2] };
+        let fractions = [damped.linear, damped.angular];
+        let braking: Load = [0, 1].map(|k| {
+            let before = load[k] + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k];
+            brakes(fractions[k], before, Vector::from(motion[k]).to_array()).into()
+        });
+        for k in 0..2 {
+            load[k] += weight[k] + applied[k] + braking[k];
+        }
+        braking
+    }
+
     /// Adds gravity, where nothing else acts.
     fn weigh(&self, state: &mut State, context: &Context) {
         if self.gravity == [0.0; 3] {

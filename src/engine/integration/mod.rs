@@ -4,7 +4,7 @@ mod braking;
 mod damped;
 mod fields;
 
-pub(crate) use fields::Fields;
+pub(crate) use fields::{Fields, Load};
 
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::{self, Kernel, Lane, Shared};

@@ -318,7 +318,9 @@ fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
 /// Which pairs of the scene have a law.
 fn laws(scene: &Scene) -> Laws {
     let (materials, governing) = (scene.materials.len(), scene.governing_laws());
-    let groups = scene.cell.is_some() || scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
+    let groups = scene.cell.is_some()
+        || !scene.clumps.is_empty()
+        || scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
     let here = scene.present();
     let mut met = (0..here.len().pow(2))
         .filter(|entry| here[entry / materials] && here[entry % materials])

@@ -50,6 +50,14 @@ pub enum RunError {
         /// Why.
         cause: Cause,
     },
+    /// A sum of the energy books ceased to be finite.
+    #[error("what the energy books sum up is not finite at t = {time} s: {cause}", time = plain(*time))]
+    Books {
+        /// Time \[s\].
+        time: f64,
+        /// Why.
+        cause: Cause,
+    },
     /// The centre of a particle is behind a plane, or a surface or a group of particles went over it.
     #[error("particle {id} went through boundary {boundary} at t = {time} s: {cause}", time = plain(*time))]
     Behind {
@@ -257,6 +265,16 @@ pub enum RunError {
         /// The group.
         boundary: String,
         /// One of its particles.
+        id: u32,
+        /// How far it would jump \[m\].
+        way: f64,
+    },
+    /// A clump of a scene that takes over another one's state would have to jump.
+    #[error(
+        "expected clumps as the checkpoint's scene has them, found sphere {id} elsewhere in its clump, by {way:.3e} m"
+    )]
+    ClumpElsewhere {
+        /// The sphere.
         id: u32,
         /// How far it would jump \[m\].
         way: f64,

@@ -83,7 +83,8 @@ impl Simulation {
             self.state.underway = Some(underway);
             return (underway.elapsed(), Ok(()));
         }
-        (underway.elapsed(), result.and_then(|()| self.check_domain()).and_then(|()| self.check_plane()))
+        let looks = || self.check_domain().and_then(|()| self.check_plane()).and_then(|()| self.check_books());
+        (underway.elapsed(), result.and_then(|()| looks()))
     }
 
     /// Divides a communication step into as many time steps as fit when it begins, or as it was divided before.

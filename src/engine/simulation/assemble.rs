@@ -5,6 +5,7 @@ use crate::engine::bonds::walls::WallBondPass;
 use crate::engine::boundaries::RigidBody;
 use crate::engine::boundaries::course;
 use crate::engine::cell::Cell;
+use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::batches::BatchLaw;
 use crate::engine::contacts::coefficients::{self, CoefficientTable};
@@ -16,7 +17,7 @@ use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Nodes, Pace, Particles, State,
     WallContacts,
 };
-use crate::scene::{Boundary, Scene};
+use crate::scene::{Boundary, Particle, Scene};
 use std::sync::Mutex;
 
 /// The state of a scene at time 0, without lists and forces.
@@ -44,6 +45,7 @@ pub(super) fn state(scene: &Scene) -> State {
         damping_impulse: [0.0; 3],
         exchange: flow::begun(scene),
         cell: Cell::begun(scene),
+        clumps: ClumpBodies::begun(scene),
         particles,
     }
 }
@@ -76,6 +78,15 @@ fn particles(scene: &Scene) -> Particles {
     for (index, boundary) in scene.boundaries.iter().enumerate() {
         for &member in boundary.shape.members() {
             particles.owner[member as usize] = index as u32 + 1;
+        }
+    }
+    // Laws see the mass of the clump: with it two clumps meet.
+    for (owner, clump) in (1 + scene.boundaries.len() as u32..).zip(&scene.clumps) {
+        for index in scene.spheres_of(clump) {
+            let Particle { shape, radius, .. } = scene.particles[index];
+            particles.owner[index] = owner;
+            particles.velocity[index][3] = clump.mass;
+            particles.angular_velocity[index][3] = shape.inertia(clump.mass, radius);
         }
     }
     particles

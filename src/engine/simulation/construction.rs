@@ -5,10 +5,11 @@ use super::rollback::Rollback;
 use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
-use crate::base::threads::Workers;
+use crate::base::threads::{Context, Workers};
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::rigid_body;
 use crate::engine::cell::Cell;
+use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
@@ -50,6 +51,7 @@ impl Simulation {
             bodies: rigid_body::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             cell: Cell::of(&scene),
+            clumps: ClumpBodies::of(&scene),
             flow,
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
@@ -79,8 +81,11 @@ impl Simulation {
     pub(super) fn build(&mut self) -> Result<(), RunError> {
         self.give_orientations();
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
+        let context = Context { step: 0.0, width: self.width, threads: None };
+        if let Some(clumps) = &self.clumps {
+            clumps.place(&mut self.state, &context);
+        }
         self.check_memory()?;
-        let context = self.standing();
         self.rebuild(&context);
         let time = self.state.clock.time;
         self.make_bonds(&Moment { number: self.state.clock.steps, from: time, to: time }, &context);
@@ -105,16 +110,21 @@ impl Simulation {
         self.open_energy_book();
         result.map_err(|error| self.named(error))?;
         (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
-        let groups = rigid_body::coming_speed(&self.bodies, &self.state, 0.0);
-        self.state.clock.speed = integration::coming_speed(&self.state.particles, 0.0).max(groups);
+        self.state.clock.speed = self.coming_speed(0.0);
         self.find_pace(self.state.clock.speed.max(self.boundary_speed()), true);
         self.first_step(&context)?;
         self.look_at_pressed();
         self.look_at_cell();
         let step = self.state.clock.step;
-        let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
-        self.state.clock.speed = integration::coming_speed(&self.state.particles, step).max(groups);
+        self.state.clock.speed = self.coming_speed(step);
         self.check_present()
+    }
+
+    /// Largest speed of what forces move, at the middle of a step of this length \[s\], from rest or not \[m/s\].
+    fn coming_speed(&self, step: f64) -> f64 {
+        let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
+        let clumps = self.clumps.as_ref().map_or(0.0, |clumps| clumps.coming_speed(&self.state.clumps, step));
+        integration::coming_speed(&self.state.particles, step).max(groups).max(clumps)
     }
 
     /// Restores a state of this simulation, which is checked first ([`Simulation::check`]); the simulation continues from

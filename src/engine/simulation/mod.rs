@@ -47,6 +47,7 @@ use crate::engine::boundaries::loads::BoundaryLoads;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::{RigidBody, nodes};
 use crate::engine::cell::Cell;
+use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy;
@@ -83,6 +84,8 @@ pub struct Simulation {
     suppression: Suppression,
     /// The periodic cell, where the scene has one.
     cell: Option<Cell>,
+    /// Clumps, where the scene has any.
+    clumps: Option<ClumpBodies>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.

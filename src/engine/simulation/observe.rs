@@ -25,7 +25,7 @@ pub struct ElasticEnergy {
 }
 
 impl Simulation {
-    /// Kinetic energy of the particles and groups that move by the forces on them \[J\].
+    /// Kinetic energy of the particles, groups and clumps that move by the forces on them \[J\].
     pub fn kinetic_energy(&self) -> f64 {
         energy::kinetic(&self.state, &self.bodies, &self.quiet())
     }
@@ -129,7 +129,7 @@ impl Simulation {
         sum
     }
 
-    /// Mean unbalanced force of the free particles and groups over the mean normal force of the contacts, or, where no
+    /// Mean unbalanced force of the free particles, groups and clumps over the mean normal force of the contacts, or, where no
     /// contact presses, over the mean force of the bonds; infinite where there is neither.
     pub fn unbalanced_force(&self) -> f64 {
         let particles = &self.state.particles;
@@ -144,6 +144,10 @@ impl Simulation {
                 sum += body.along_free(moved.inertial.load).length();
                 count += 1;
             }
+        }
+        for force in &self.state.clumps.force {
+            sum += Vector::from(*force).length();
+            count += 1;
         }
         match self.mean_interaction() {
             Some(mean) if count > 0 => sum / count as f64 / mean,
@@ -168,7 +172,8 @@ impl Simulation {
     /// The fastest of the particles that forces move: its index, its speed \[m/s\] and its radius \[m\].
     pub fn fastest(&self) -> Option<(u32, f64, f64)> {
         let particles = &self.state.particles;
-        let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+        let moves = |slot: &usize| particles.owner[*slot] == 0 || self.state.clump(*slot).is_some();
+        let free = (0..particles.len()).filter(moves);
         let speed = |slot: usize| Vector::from(particles.velocity[slot]).length();
         let slot = free.reduce(|most, next| if speed(next) > speed(most) { next } else { most })?;
         Some((particles.id[slot], speed(slot), particles.position[slot][3]))

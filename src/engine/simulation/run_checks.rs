@@ -59,6 +59,18 @@ impl Simulation {
                 return Err(self.runaway(member, way / body.smallest, cause));
             }
         }
+        let clumps = &self.state.clumps;
+        for (bodies, clump) in
+            self.clumps.iter().flat_map(|bodies| (0..bodies.count()).map(move |clump| (bodies, clump)))
+        {
+            let (smallest, way) = (clumps.moments[clump][3], step * bodies.speed_after(clumps, clump, step));
+            if way > RUNAWAY * smallest {
+                let now = bodies.speed_after(clumps, clump, 0.0);
+                let force = Vector::from(clumps.force[clump]).length();
+                let cause = self.cause_of_displacement(step, now, force, step * now > 0.5 * way);
+                return Err(self.runaway(self.scene.clumps[clump].first, way / smallest, cause));
+            }
+        }
         Ok(())
     }
 
@@ -152,6 +164,14 @@ impl Simulation {
         RunError::NotFinite { id: 0, quantity: "speed", time: self.time(), cause: self.step_or_unidentified() }
     }
 
+    /// Refuses energy books with sums that are not finite.
+    pub(super) fn check_books(&self) -> Result<(), RunError> {
+        if self.state.has_finite_books() {
+            return Ok(());
+        }
+        Err(RunError::Books { time: self.time(), cause: self.step_or_unidentified() })
+    }
+
     /// Finds a particle that a group of particles went over in a time step of this length \[s\].
     pub(super) fn check_groups(&self, step: f64) -> Result<(), RunError> {
         let Some((slot, group)) = self.passing.through_groups(&self.state, step) else { return Ok(()) };
@@ -223,6 +243,7 @@ impl Simulation {
             }
             RunError::StepTooLong { .. }
             | RunError::EnergyGain { .. }
+            | RunError::Books { .. }
             | RunError::CellElsewhere
             | RunError::CellStrain { .. }
             | RunError::CellStep { .. }
@@ -236,6 +257,7 @@ impl Simulation {
             | RunError::TooShort { .. }
             | RunError::Interval { .. }
             | RunError::GroupElsewhere { .. }
+            | RunError::ClumpElsewhere { .. }
             | RunError::Collapsed { .. }
             | RunError::NoNumberLeft { .. }
             | RunError::Memory { .. } => {}

@@ -13,9 +13,10 @@ impl Simulation {
     /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
-        let State { particles, mut neighbours, contacts, walls, bonds, exchange, cell, .. } = reached;
+        let State { particles, clumps, mut neighbours, contacts, walls, bonds, exchange, cell, .. } = reached;
         neighbours.made_at = 0;
-        let mut state = State { particles, neighbours, contacts, walls, bonds, exchange, ..assemble::state(&scene) };
+        let mut state =
+            State { particles, clumps, neighbours, contacts, walls, bonds, exchange, ..assemble::state(&scene) };
         if let (Some(begun), Some(ended)) = (&mut state.cell, cell) {
             begun.stay(ended);
         }

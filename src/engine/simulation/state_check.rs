@@ -20,6 +20,9 @@ impl Simulation {
     pub fn check(&self, state: &State) -> Result<(), StateFault> {
         state.check(&self.state)?;
         self.search.check(state)?;
+        if let Some(clumps) = &self.clumps {
+            clumps.check(state, &self.state)?;
+        }
         let count = state.particles.len();
         if let Some(exchange) = &state.exchange {
             flow::check(&self.scene, &state.particles, exchange)?;

@@ -3,6 +3,7 @@
 use super::{RunError, Simulation};
 use crate::base::threads::Context;
 use crate::engine::boundaries::{course, loads, nodes, rigid_body};
+use crate::engine::clumps;
 use crate::engine::energy;
 use crate::engine::integration;
 use crate::engine::state::ledger::Source;
@@ -57,8 +58,9 @@ impl Simulation {
         let particles = &mut self.state.particles;
         let speed = integration::kick_and_drift(particles, step, self.turning, context);
         integration::turn(particles, step, context);
+        let clumps = self.clumps.as_ref().map_or(0.0, |clumps| clumps.kick_and_drift(&mut self.state, step, context));
         self.done("kick and drift");
-        speed * step
+        speed.max(clumps) * step
     }
 
     /// Deforms the periodic cell, where there is one. Returns the strain.
@@ -74,7 +76,9 @@ impl Simulation {
     fn kick_again(&mut self, gravity: Option<[f64; 3]>, step: f64, context: &Context) -> f64 {
         let particles = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let bodies = rigid_body::kick_again(&self.bodies, &mut self.state, step);
-        let speed = if bodies > particles || bodies.is_nan() { bodies } else { particles };
+        let clumps = self.clumps.as_ref().map_or(0.0, |clumps| clumps.kick_again(&mut self.state, step, context));
+        let larger = |most: f64, one: f64| if one > most || one.is_nan() { one } else { most };
+        let speed = [bodies, clumps].into_iter().fold(particles, larger);
         self.state.clock.speed = speed;
         self.done("kick");
         speed
@@ -112,6 +116,7 @@ impl Simulation {
                 if let Some(cell) = self.cell.as_mut().filter(|_| source != Source::Walls) {
                     cell.end_kind(&mut self.state, !more, context);
                 }
+                clumps::note_loads(self.clumps.as_ref(), &mut self.state, source);
                 self.workspace.between.note(&mut self.state, &self.bodies, source, next);
                 self.done(source.name());
                 if let Some(cell) = self.cell.as_mut().filter(|_| more) {
@@ -126,10 +131,11 @@ impl Simulation {
         self.suppression.broken(state, told);
         self.suppression.settle(state);
         loads::sum_groups(&self.scene, state);
+        let on_clumps = self.clumps.as_ref().map(|clumps| clumps.load(&self.fields, state, context));
         state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
         let braking = self.fields.load_bodies(&self.bodies, state);
-        for (sum, part) in state.damping_force.iter_mut().zip(braking) {
-            *sum += part;
+        for braking in on_clumps.into_iter().chain([braking]) {
+            state.damping_force.iter_mut().zip(braking).for_each(|(sum, part)| *sum += part);
         }
         self.done("fields");
         result
@@ -139,6 +145,7 @@ impl Simulation {
     fn book_first_kick(&mut self, step: f64) {
         energy::work::book_first(&mut self.state, &self.fields, &self.bodies, step);
         energy::losses::begin_step(&mut self.state, &self.fields, &self.bodies, step);
+        self.book_clumps(step);
     }
 
     /// Books the half kick that is about to end a step of this length \[s\], where a book of energy is kept, with gravity \[m/s²\] where
@@ -147,6 +154,13 @@ impl Simulation {
         let Self { state, fields, bodies, workspace, .. } = self;
         energy::work::book_second(state, &mut workspace.between, (fields, gravity), bodies, step, context);
         energy::losses::book_bodies(state, fields, bodies, step);
+        self.book_clumps(step);
+    }
+
+    /// Books the half kick of clumps that is about to be made.
+    fn book_clumps(&mut self, step: f64) {
+        clumps::book_work(self.clumps.as_ref(), &mut self.state, &self.fields, step);
+        clumps::book_losses(self.clumps.as_ref(), &mut self.state, &self.fields, step);
     }
 
     /// Books the impulses of a step on boundaries and nodes, and that of global damping.

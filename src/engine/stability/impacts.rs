@@ -1,14 +1,16 @@
 //! Impacts still to come between bodies that are in no list: of all pairs of materials that can meet, the hardest.
 //!
 //! Of equal materials the lightest body has the largest root. So each material stands for its two lightest particles (those that an
-//! insertion lets come among them) and its largest, for the groups that forces move and for those that nothing moves. Any two of
+//! insertion lets come among them) and its largest, for the groups that forces move and for those that nothing moves; each shape of a clump for its lightest and its heaviest. Any two of
 //! these can meet, and each can meet every surface; a particle cannot meet itself. Two bodies alone are bounded exactly, with their rolling springs.
 
 use super::System;
 use super::limiter::{Limiter, LimiterKind, Mode};
 use crate::base::number::Vector;
 use crate::engine::boundaries::RigidBody;
+use crate::engine::clumps::{ClumpBodies, Striker};
 use crate::engine::contacts::{Frame, Meeting};
+use crate::engine::integration::Fields;
 use crate::engine::state::GONE;
 use crate::laws::contact::Contact;
 use crate::scene::ParticleShape;
@@ -195,7 +197,7 @@ impl System<'_> {
                 }
                 continue;
             };
-            if self.bodies[owner].as_ref().is_some_and(RigidBody::is_free) {
+            if self.bodies.get(owner).is_none_or(|body| body.as_ref().is_some_and(RigidBody::is_free)) {
                 continue;
             }
             let next = Candidate::group(material, particles.id[slot], (radius, mass, f64::INFINITY), [0.0; 2]);
@@ -234,7 +236,31 @@ impl System<'_> {
                 }
             }
         }
-        lightest.into_iter().flatten().chain(largest).chain(still).chain(moved).flatten().collect()
+        let clumps =
+            self.clumps.map_or(&[][..], ClumpBodies::strikers).iter().map(|it| Some(it.candidate(self.fields)));
+        lightest.into_iter().flatten().chain(largest).chain(still).chain(moved).chain(clumps).flatten().collect()
+    }
+}
+
+impl Striker {
+    /// A sphere of a clump that may meet others like it.
+    fn candidate(&self, fields: &Fields) -> Candidate {
+        let [linear, angular] = fields.amplification(self.particle);
+        let [shift, slip] = [self.shift, self.slip].map(|by_arm| linear / self.mass + angular * by_arm);
+        let spin = angular * self.spin;
+        Candidate {
+            material: self.material,
+            radius: self.radius,
+            mass: self.mass,
+            per_striking_mass: 1.0 / self.mass,
+            shift,
+            slip,
+            spin,
+            turn: (slip * spin).sqrt(),
+            particle: self.particle,
+            is_sphere: false,
+            has_likes: true,
+        }
     }
 }
 

@@ -14,7 +14,7 @@ impl System<'_> {
         let served =
             |boundary: usize| self.scene.boundaries[boundary].axes.iter().any(|motion| motion.servo().is_some());
         let mut resistances = vec![[[0.0; 3]; 2]; self.scene.boundaries.len()];
-        let particles = &self.state.particles;
+        let (particles, boundaries) = (&self.state.particles, self.scene.boundaries.len());
         let owner = |slot: u32| particles.group(slot as usize);
         for pass in self.passes {
             pass.stiffness(self.state, &SearchLimits::default(), &mut |link| {
@@ -24,7 +24,9 @@ impl System<'_> {
                     return;
                 }
                 for (boundary, other) in sides {
-                    let (Some(boundary), Some(other)) = (boundary.filter(|boundary| served(*boundary)), other) else {
+                    let (Some(boundary), Some(other)) =
+                        (boundary.filter(|&boundary| boundary < boundaries && served(boundary)), other)
+                    else {
                         continue;
                     };
                     let mass = particles.velocity[other as usize][3];

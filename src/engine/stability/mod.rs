@@ -19,6 +19,7 @@ mod triangle;
 
 use crate::base::threads::Context;
 use crate::engine::boundaries::RigidBody;
+use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{GONE, State};
@@ -45,6 +46,8 @@ pub(crate) struct System<'a> {
     pub state: &'a State,
     /// Groups that move.
     pub bodies: &'a [Option<RigidBody>],
+    /// Clumps, where there are any.
+    pub clumps: Option<&'a ClumpBodies>,
     /// What acts on each particle by itself.
     pub fields: &'a Fields,
     /// Interactions.
@@ -102,7 +105,7 @@ impl System<'_> {
 
     /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
     fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
-        let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
+        let bodies = Network::of_bodies(self.state, (self.bodies, self.clumps), self.fields);
         let supports = bodies.supports(self.bodies);
         blocks::quick_root(&bodies, supports, |tell| {
             self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell));
@@ -117,7 +120,7 @@ impl System<'_> {
 
     /// The network, as it may get.
     fn network(&self, ahead: &SearchLimits) -> Network<'_> {
-        Network::of(self.state, self.bodies, self.fields, self.passes, ahead)
+        Network::of(self.state, (self.bodies, self.clumps), self.fields, self.passes, ahead)
     }
 
     /// What a step that was found is limited by.

@@ -2,6 +2,7 @@
 
 use crate::base::number::{Vector, binade};
 use crate::engine::boundaries::RigidBody;
+use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{IMAGE, State};
@@ -119,7 +120,7 @@ impl Parts {
     }
 }
 
-/// A group or a surface that forces move.
+/// A group, a clump or a surface that forces move.
 pub(super) struct Group {
     /// Where its reference point stands \[m\].
     pub pivot: Vector,
@@ -133,7 +134,7 @@ pub(crate) struct Network<'a> {
     pub(super) state: &'a State,
     /// Of each particle (slot): what scales its translations \[1/√kg\] and its rotations \[1/√(kg m²)\].
     pub(super) roots: Arc<[[f64; 2]]>,
-    /// Of each boundary.
+    /// Of each boundary, and behind them of each clump.
     pub(super) groups: Arc<[Option<Group>]>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
@@ -145,7 +146,11 @@ pub(crate) struct Network<'a> {
 
 impl<'a> Network<'a> {
     /// The bodies without interactions.
-    pub(super) fn of_bodies(state: &'a State, bodies: &[Option<RigidBody>], fields: &Fields) -> Self {
+    pub(super) fn of_bodies(
+        state: &'a State,
+        (bodies, clumps): (&[Option<RigidBody>], Option<&ClumpBodies>),
+        fields: &Fields,
+    ) -> Self {
         let particles = &state.particles;
         let root = |slot: usize| {
             let [linear, angular] = fields.amplification(particles.id[slot]);
@@ -159,10 +164,17 @@ impl<'a> Network<'a> {
             let mobility = body.mobility(moved).map_with_location(|row, _, part| part * factor(row));
             Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
         };
+        let groups = bodies.iter().zip(&state.boundaries).map(group);
+        let clump = |(clumps, index): (&ClumpBodies, usize)| {
+            let pivot = Vector::from(state.clumps.position[index]);
+            Some(Group { pivot, root: clumps.root(&state.clumps, index, clumps.amplification(index, fields)) })
+        };
+        let all = clumps.into_iter().flat_map(|clumps| (0..clumps.count()).map(move |index| (clumps, index)));
+        let groups = groups.chain(all.map(clump));
         Self {
             state,
             roots: (0..particles.len()).map(root).collect(),
-            groups: bodies.iter().zip(&state.boundaries).map(group).collect(),
+            groups: groups.collect(),
             elements: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
@@ -172,12 +184,12 @@ impl<'a> Network<'a> {
     /// The bodies with what is at work between them or, looking ahead, may be.
     pub(crate) fn of(
         state: &'a State,
-        bodies: &[Option<RigidBody>],
+        (bodies, clumps): (&[Option<RigidBody>], Option<&ClumpBodies>),
         fields: &Fields,
         passes: &[Box<dyn Pass>],
         ahead: &SearchLimits,
     ) -> Self {
-        let mut network = Self::of_bodies(state, bodies, fields);
+        let mut network = Self::of_bodies(state, (bodies, clumps), fields);
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
         let most = most_links(state);
         network.elements.reserve(most);

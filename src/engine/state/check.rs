@@ -7,7 +7,9 @@
 
 use super::boundaries::Pressed;
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
-use super::{CellState, Exchange, GONE, History, IMAGE, NearParts, Nodes, Pace, Row, State, Underway, WallContacts};
+use super::{
+    CellState, Clumps, Exchange, GONE, History, IMAGE, NearParts, Nodes, Pace, Row, State, Underway, WallContacts,
+};
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
 const MOST: u64 = 1 << 48;
@@ -113,6 +115,7 @@ impl State {
             self.particles.check_same(&other.particles)?;
         }
         let same = "as many as the scene has";
+        demand(self.clumps.len() == other.clumps.len(), "clumps", self.clumps.len(), same)?;
         demand(self.contacts.len() == other.contacts.len(), "contacts", self.contacts.len(), same)?;
         demand(self.walls.len() == other.walls.len(), "walls", self.walls.len(), same)?;
         demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), same)?;
@@ -140,6 +143,7 @@ impl State {
         self.foresight.check()?;
         self.pace.check()?;
         self.particles.check()?;
+        self.clumps.check()?;
         let count = self.particles.len();
         self.neighbours.check(count, self.boundaries.len(), &self.clock)?;
         for rows in &self.coefficients {
@@ -165,7 +169,7 @@ impl State {
         let there = self.nodes.iter().map(|nodes| (nodes.boundary as usize) < self.boundaries.len());
         demand_all(there, "nodes", "a boundary of the scene")?;
         self.nodes.iter().try_for_each(Nodes::check)?;
-        self.ledger.iter().try_for_each(|ledger| ledger.check(self.boundaries.len()))?;
+        self.ledger.iter().try_for_each(|ledger| ledger.check(self.boundaries.len(), self.clumps.len()))?;
         self.losses.iter().try_for_each(Losses::check)?;
         all_finite(&self.damping_force, "damping_force")?;
         all_finite(&self.damping_impulse, "damping_impulse")?;
@@ -314,6 +318,31 @@ impl Particles {
                 && [other.owner[there], IMAGE].contains(&self.owner[slot])
         };
         demand_all((0..self.len()).map(same), "particles", "the scene's radius, mass, inertia, material and group")
+    }
+}
+
+impl Clumps {
+    /// Whether these can be clumps.
+    fn check(&self) -> Result<(), StateFault> {
+        let Self { position, moments, velocity, orientation, .. } = self;
+        let Self { angular_momentum, angular_velocity, force, moment, braking, .. } = self;
+        let rows = [position, moments, velocity, orientation, angular_momentum, angular_velocity, force, moment];
+        let lengths = rows.iter().map(|rows| rows.len() == self.len());
+        demand_all(lengths, "clumps", "columns of one length")?;
+        rows.into_iter().try_for_each(|rows| finite(rows, "clumps"))?;
+        let braked = braking.is_empty() || braking.len() == self.len();
+        demand(
+            braked && braking.as_flattened().as_flattened().iter().all(|part| part.is_finite()),
+            "clumps",
+            0,
+            FINITE,
+        )?;
+        let length = |row: &Row| row.iter().map(|part| part * part).sum::<f64>();
+        demand_all(orientation.iter().map(|row| (length(row) - 1.0).abs() < 1e-6), "clumps", "unit quaternions")?;
+        let energies = velocity.iter().zip(angular_momentum.iter().zip(angular_velocity));
+        let energies =
+            energies.map(|(v, (l, w))| v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + length(l) + length(w));
+        demand_all(energies.map(f64::is_finite), "clumps", "a kinetic energy that is a number")
     }
 }
 
@@ -646,20 +675,17 @@ impl Nodes {
 }
 
 impl Ledger {
-    /// Whether the book can be one of a scene with so many boundaries.
-    fn check(&self, boundaries: usize) -> Result<(), StateFault> {
+    /// Whether the book can be one of a scene with so many boundaries and clumps.
+    fn check(&self, boundaries: usize, clumps: usize) -> Result<(), StateFault> {
         let Self { initial_kinetic, initial_elastic, turnover, power_turned_over, .. } = *self;
         all_finite(&[initial_kinetic, initial_elastic, turnover, power_turned_over], "ledger")?;
         for powers in [&self.work, &self.power, &self.growth] {
             all_finite(powers, "ledger")?;
         }
-        for loads in &self.on_bodies {
-            demand(
-                loads.is_empty() || loads.len() == boundaries,
-                "loads",
-                loads.len(),
-                "one for each boundary, or none",
-            )?;
+        let of = |lists, count| std::iter::repeat(count).zip(lists);
+        for (count, loads) in of(&self.on_bodies, boundaries).chain(of(&self.on_clumps, clumps)) {
+            let expected = "one for each boundary or clump, or none";
+            demand(loads.is_empty() || loads.len() == count, "loads", loads.len(), expected)?;
             loads.iter().try_for_each(|load| all_finite(load, "loads"))?;
         }
         Ok(())

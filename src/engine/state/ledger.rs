@@ -78,6 +78,8 @@ pub struct Ledger {
     /// Force \[N\] and moment \[N m\] on the spheres of each body when those of each kind that passes make have been added; empty
     /// where the scene has no such kind.
     pub on_bodies: [Vec<[f64; 6]>; Source::PASSES],
+    /// The same of each clump.
+    pub on_clumps: [Vec<[f64; 6]>; Source::PASSES],
 }
 
 clone_in_place!(Ledger {
@@ -88,7 +90,8 @@ clone_in_place!(Ledger {
     power,
     growth,
     power_turned_over,
-    on_bodies
+    on_bodies,
+    on_clumps
 });
 
 impl Ledger {

@@ -8,6 +8,7 @@ pub mod boundaries;
 pub mod cell;
 mod check;
 pub mod clock;
+pub mod clumps;
 pub mod contacts;
 pub mod exchange;
 pub mod foresight;
@@ -28,6 +29,7 @@ pub use cell::CellState;
 pub use check::StateFault;
 pub(crate) use check::demand;
 pub use clock::{Clock, Underway};
+pub use clumps::Clumps;
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use exchange::Exchange;
 pub use foresight::Foresight;
@@ -58,6 +60,8 @@ pub struct State {
     pub pace: Pace,
     /// Positions, velocities, forces.
     pub particles: Particles,
+    /// Clumps, whose spheres are among them.
+    pub clumps: Clumps,
     /// When and for where the lists below were made.
     pub neighbours: Neighbours,
     /// Coefficients of each contact law: a row for each two materials, row by row; zeros where it does not govern them.
@@ -98,6 +102,7 @@ clone_in_place!(State {
     foresight,
     pace,
     particles,
+    clumps,
     neighbours,
     coefficients,
     tuned,
@@ -126,6 +131,17 @@ impl State {
         self.nodes.iter_mut().find(|nodes| nodes.boundary as usize == boundary)
     }
 
+    /// The clump to which the particle in a slot belongs.
+    pub(crate) fn clump(&self, slot: usize) -> Option<usize> {
+        if self.clumps.is_empty() { None } else { self.particles.group(slot)?.checked_sub(self.boundaries.len()) }
+    }
+
+    /// Whether two particles (slots) are spheres of one clump.
+    pub(crate) fn are_of_one_clump(&self, a: u32, b: u32) -> bool {
+        let of = |slot: u32| self.clump(slot as usize);
+        of(a).is_some() && of(a) == of(b)
+    }
+
     /// Where the particle in a slot has come to without being brought back into a periodic cell; elsewhere where it is \[m\].
     pub(crate) fn unwrapped(&self, slot: usize) -> [f64; 3] {
         let [x, y, z, _] = self.particles.position[slot];
@@ -138,6 +154,23 @@ impl State {
     /// Work of each boundary, and of the periodic cell, on the particles since time 0 \[J\].
     pub(crate) fn works(&self) -> impl Iterator<Item = f64> + '_ {
         self.boundaries.iter().map(|boundary| boundary.work).chain(self.cell.iter().map(|cell| cell.work))
+    }
+
+    /// Whether every sum of entries of the energy books is finite: that of all their magnitudes is.
+    pub(crate) fn has_finite_books(&self) -> bool {
+        let ledgers = self.ledger.iter().flat_map(|book| {
+            let others = [book.turnover, book.initial_kinetic, book.initial_elastic];
+            book.work.into_iter().chain(others)
+        });
+        let losses = self.losses.iter().flat_map(|book| {
+            let others = [book.given_to_bodies, book.initial_kinetic, book.initial_elastic, book.initial_potential];
+            book.taken.into_iter().chain(book.initial_held).chain(others)
+        });
+        let bonds = self.bonds.iter().flat_map(|list| [list.relaxed, list.damped, list.released]);
+        let net = self.exchange.iter().map(|exchange| &exchange.net);
+        let exchanged = net.flat_map(|net| [net.kinetic, net.elastic, net.potential, net.turnover]);
+        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(self.works());
+        all.map(f64::abs).sum::<f64>().is_finite()
     }
 
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.

@@ -34,7 +34,8 @@ pub struct Particles {
     /// Index of the material.
     #[serde(with = "plain")]
     pub material: Vec<u32>,
-    /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs; [`IMAGE`], another particle.
+    /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs, or, counted on behind the boundaries, a
+    /// clump; [`IMAGE`], another particle.
     #[serde(with = "plain")]
     pub owner: Vec<u32>,
     /// Index of the particle in each slot here, of images that of their particle: into the scene's particles, and behind these into
@@ -103,7 +104,7 @@ impl Particles {
         if image { self.slot[self.id[slot as usize] as usize] } else { slot }
     }
 
-    /// The boundary to whose group the particle in a slot belongs.
+    /// The boundary to whose group, or behind the boundaries the clump to which the particle in a slot belongs.
     pub(crate) fn group(&self, slot: usize) -> Option<usize> {
         let owner = self.owner[slot];
         if owner == IMAGE { None } else { (owner as usize).checked_sub(1) }

@@ -55,7 +55,7 @@ pub(super) static OF_LOSSES: [Row; Loss::COUNT + 1] = [
 pub(super) static OF_SCENE: [Row; 14] = [
     Row {
         name: "energy.kinetic",
-        description: "kinetic energy of the particles and groups that move freely",
+        description: "kinetic energy of the particles, clumps and groups that move freely",
         quantity: Quantity::Energy,
         minimum: Some(0.0),
         follows_inputs_at_start: false,

@@ -15,8 +15,20 @@ pub const ENVIRONMENT_VARIABLE: &str = "COGRAIN_FMU_LIBRARY";
 /// Name of the library with the sub-models of the program.
 pub const STANDARD_LIBRARY: &str = "cograin_fmu";
 
-/// Text that stands in the library of this version and in no other.
-pub const LIBRARY_MARK: &str = concat!("cograin FMI 2.0 library, version ", env!("CARGO_PKG_VERSION"), ";");
+/// Text that stands in a library of units that was built from these sources, and in no other.
+pub const LIBRARY_MARK: &str =
+    concat!("cograin FMI 2.0 library, version ", env!("CARGO_PKG_VERSION"), ", build ", env!("COGRAIN_BUILD"), ";");
+
+/// How marks begin, those of other versions, too.
+const MARK_BEGINS: &str = "cograin FMI 2.0 library, ";
+
+/// A mark is no longer.
+const LONGEST_MARK: usize = 120;
+
+/// What a mark, whole or after its begin, says of the program.
+fn built_by(mark: &str) -> &str {
+    mark.trim_start_matches(MARK_BEGINS).trim_end_matches(';')
+}
 
 /// The functions that a co-simulation unit of FMI 2.0 has.
 pub(super) const FUNCTIONS: [&str; 34] = [
@@ -85,10 +97,22 @@ pub enum LibraryError {
         found: String,
     },
     /// It is another library.
-    #[error("{}: not the unit's library of this version; \"{LIBRARY_MARK}\" does not stand in it", path.display())]
+    #[error("{}: expected a library of cograin's units, found one without the mark \"{LIBRARY_MARK}\"", path.display())]
     Foreign {
         /// Its path.
         path: PathBuf,
+    },
+    /// It was built from other sources.
+    #[error(
+        "{}: expected the library of this program, {}, found that of {found}; build both from the same sources",
+        path.display(),
+        built_by(LIBRARY_MARK)
+    )]
+    Other {
+        /// Its path.
+        path: PathBuf,
+        /// The version and the build that its mark tells.
+        found: String,
     },
     /// It lacks a function.
     #[error("{}: expected the functions of FMI 2.0, found none called {missing}", path.display())]
@@ -161,12 +185,16 @@ impl Library {
         let path_of = || path.to_owned();
         let bytes = fs::read(path).map_err(|cause| LibraryError::Read { path: path_of(), cause })?;
         let images = Image::all_of(&bytes).map_err(|found| LibraryError::Kind { path: path_of(), found })?;
-        let mark = LIBRARY_MARK.as_bytes();
-        if !bytes.windows(mark.len()).any(|window| window == mark) {
-            return Err(LibraryError::Foreign { path: path_of() });
-        }
         let mut platforms = BTreeSet::new();
         for image in &images {
+            let marks: Vec<&[u8]> = image.marks().collect();
+            if !marks.iter().any(|mark| mark.starts_with(LIBRARY_MARK.as_bytes())) {
+                // Of the library's own texts that begin likewise the mark tells most.
+                return Err(match marks.into_iter().filter_map(told).max_by_key(|found| found.len()) {
+                    Some(found) => LibraryError::Other { path: path_of(), found: found.to_owned() },
+                    None => LibraryError::Foreign { path: path_of() },
+                });
+            }
             platforms.insert(image.platform().map_err(|found| LibraryError::Platform { path: path_of(), found })?);
             let functions = image.functions().map_err(|found| LibraryError::Kind { path: path_of(), found })?;
             if let Some(missing) = FUNCTIONS.into_iter().find(|name| !functions.contains(name.as_bytes())) {
@@ -181,6 +209,15 @@ impl Library {
 struct Image<'a> {
     /// The file, or that part of it.
     file: object::File<'a>,
+    /// Its bytes.
+    bytes: &'a [u8],
+}
+
+/// What a mark says of the program that it was built with, if it is one.
+fn told(mark: &[u8]) -> Option<&str> {
+    let end = mark.iter().take(LONGEST_MARK).position(|byte| *byte == b';')?;
+    let text = std::str::from_utf8(&mark[..end]).ok().map(built_by)?;
+    text.chars().all(|letter| letter.is_ascii_graphic() || letter == ' ').then_some(text)
 }
 
 impl<'a> Image<'a> {
@@ -199,10 +236,16 @@ impl<'a> Image<'a> {
     fn of(bytes: &'a [u8]) -> Result<Self, String> {
         let file = object::File::parse(bytes).map_err(damaged)?;
         match file.kind() {
-            ObjectKind::Dynamic => Ok(Self { file }),
+            ObjectKind::Dynamic => Ok(Self { file, bytes }),
             ObjectKind::Executable => Err("a program".to_owned()),
             _ => Err("an object file".to_owned()),
         }
+    }
+
+    /// Its bytes from each place where a mark may begin.
+    fn marks(&self) -> impl Iterator<Item = &'a [u8]> {
+        let (bytes, begin) = (self.bytes, MARK_BEGINS.as_bytes());
+        bytes.windows(begin.len()).enumerate().filter(move |(_, window)| *window == begin).map(|(at, _)| &bytes[at..])
     }
 
     /// The machines that it is for, or their name if FMI has none for them. FMI 2.0 has names of its own for x86 and, since 2.0.4,
@@ -357,7 +400,23 @@ mod tests {
         assert!(refused(b"").ends_with("found another file"));
         assert!(refused(&Sample { shared: false, ..Sample::LINUX }.bytes()).ends_with("found a program"));
         let no_mark = Sample { mark: "", ..Sample::WINDOWS }.bytes();
-        assert!(refused(&no_mark).contains("not the unit's library of this version"));
+        assert!(refused(&no_mark).contains("found one without the mark"));
+        for made in [Sample::LINUX, Sample::WINDOWS, Sample::MACOS] {
+            let other = Sample { mark: "cograin FMI 2.0 library, version 0.0.9;", ..made };
+            let message = refused(&other.bytes());
+            assert!(message.contains("found that of version 0.0.9; build both"), "{message}");
+            let older = LIBRARY_MARK.replace(env!("COGRAIN_BUILD"), "0123456789abcdef");
+            let message = refused(&[Sample { mark: "", ..made }.bytes(), older.into_bytes()].concat());
+            assert!(
+                message.contains(concat!(env!("CARGO_PKG_VERSION"), ", build 0123456789abcdef; build")),
+                "{message}"
+            );
+            // Text that only begins like a mark hides none.
+            let before = [Sample { mark: "cograin FMI 2.0 library, ", ..made }.bytes(), LIBRARY_MARK.into()].concat();
+            assert!(verdict("before", &before).is_ok());
+        }
+        let mixed = [Sample { arm: true, ..Sample::MACOS }, Sample { mark: "", ..Sample::MACOS }];
+        assert!(refused(&sample::universal(&mixed)).contains("without the mark"), "each part has its own");
         for made in [Sample::LINUX, Sample::WINDOWS, Sample::MACOS] {
             let message = refused(&Sample { without: "fmi2DoStep", ..made }.bytes());
             assert!(message.ends_with("found none called fmi2DoStep"), "{message}");

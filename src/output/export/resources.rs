@@ -164,7 +164,7 @@ pub fn identity(source: &Source, state: Option<&[u8]>) -> String {
         decides.extend_from_slice(&(bytes.len() as u64).to_le_bytes());
         decides.extend_from_slice(bytes);
     };
-    part(super::LIBRARY_MARK.as_bytes());
+    part(concat!("cograin FMI 2.0 library, version ", env!("CARGO_PKG_VERSION"), ";").as_bytes());
     part(source.text.as_bytes());
     for (name, bytes) in &source.files {
         part(name.as_bytes());

@@ -247,6 +247,12 @@ fn exchange(scene: &Scene) -> Vec<String> {
             .map(|outlet| format!("outlet {}: looked at after each half of the smallest radius", outlet.name)),
     );
     uses.extend(scene.meters.iter().map(|meter| format!("flow meter {}: every particle in every step", meter.name)));
+    for (index, shape) in (0..).zip(&scene.clump_shapes) {
+        let count = scene.clumps.iter().filter(|clump| clump.shape == index).count();
+        let error =
+            if shape.error > 0.0 { format!(", inertia integrated to {:.0e}", shape.error) } else { String::new() };
+        uses.push(format!("clump {}: {count} of {} spheres each{error}", shape.name, shape.spheres.len()));
+    }
     if let Some(cell) = &scene.cell {
         let edges = ["x", "y", "z"].into_iter().zip(cell.lattice.periodic).filter(|(_, periodic)| *periodic);
         let edges: Vec<&str> = edges.map(|(name, _)| name).collect();

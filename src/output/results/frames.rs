@@ -1,18 +1,27 @@
-//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries, the cell.
+//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries, the cell, the clumps.
 
 use super::boundaries::boundaries;
 use super::job::Job;
 use super::vtk::{Kind, PointCloud, Values};
-use crate::base::geometry::Lattice;
+use crate::base::geometry::{Lattice, Quaternion};
+use crate::engine::clumps::{force_on, mass_of};
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
-use crate::engine::state::{CellState, Particles};
-use crate::scene::Scene;
+use crate::engine::state::{CellState, Clumps, Particles};
+use crate::scene::{Clump, Scene};
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
-pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 5] {
-    let Job::Frame { particles: bodies, contacts: touching, bonds: living, boundaries: moved, cell: lies, .. } = job
+pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
+    let Job::Frame {
+        particles: bodies,
+        contacts: touching,
+        bonds: living,
+        boundaries: moved,
+        cell: lies,
+        clumps: rigid,
+        ..
+    } = job
     else {
-        return [const { None }; 5];
+        return [const { None }; 6];
     };
     let loads = || (touching.as_deref().unwrap_or_default(), living.as_deref().unwrap_or_default());
     [
@@ -21,6 +30,7 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 5] {
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
         moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
         lies.as_deref().map(cell),
+        rigid.as_deref().map(|rigid| clumps(scene, rigid)),
     ]
 }
 
@@ -30,6 +40,7 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles, cell: Option<&Cell
     let [points, unwrapped] = places(scene, particles, cell);
     let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
     let fourth = |rows: &[[f64; 4]]| slots().map(|slot| rows[slot][3]).collect::<Vec<_>>();
+    let (groups, owner) = (scene.boundaries.len() as i64, |slot: usize| i64::from(particles.owner[slot]) - 1);
     let damage = (!particles.bonds.is_empty()).then(|| ("damage", Values::Scalars(particles.damage())));
     let fields = vec![
         ("radius", Values::Scalars(fourth(&particles.position))),
@@ -37,11 +48,18 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles, cell: Option<&Cell
         ("material", Values::Integers(slots().map(|slot| i64::from(particles.material[slot])).collect())),
         ("velocity", Values::Vectors(three(&particles.velocity))),
         ("angular_velocity", Values::Vectors(three(&particles.angular_velocity))),
-        ("force", Values::Vectors(three(&particles.force))),
+        ("force", Values::Vectors(slots().flat_map(|slot| force_on(scene, particles, slot)).collect())),
         ("torque", Values::Vectors(three(&particles.torque))),
-        ("mass", Values::Scalars(fourth(&particles.velocity))),
-        ("group", Values::Integers(slots().map(|slot| i64::from(particles.owner[slot]) - 1).collect())),
+        ("mass", Values::Scalars(slots().map(|slot| mass_of(scene, particles, slot)).collect())),
+        (
+            "group",
+            Values::Integers(
+                slots().map(|slot| owner(slot).min(groups)).map(|it| if it < groups { it } else { -1 }).collect(),
+            ),
+        ),
     ];
+    let clumps = (!scene.clumps.is_empty())
+        .then(|| ("clump", Values::Integers(slots().map(|slot| (owner(slot) - groups).max(-1)).collect())));
     let of_set = |slot: usize| scene.particles.get(particles.id[slot] as usize).map_or(-1, |own| i64::from(own.set.0));
     let sets = (scene.sets.len() > 1).then(|| ("set", Values::Integers(slots().map(of_set).collect())));
     let orientation = (!particles.orientation.is_empty()).then(|| {
@@ -54,6 +72,7 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles, cell: Option<&Cell
             .into_iter()
             .chain(cell.map(|_| ("unwrapped", Values::Vectors(unwrapped))))
             .chain(sets)
+            .chain(clumps)
             .chain(orientation)
             .chain(damage)
             .collect(),
@@ -79,6 +98,31 @@ fn places(scene: &Scene, particles: &Particles, cell: Option<&CellState>) -> [Ve
         all.iter_mut().zip(both).for_each(|(all, place)| all.extend(place));
     }
     all
+}
+
+/// The clumps: mass centres, and how their own frames are turned.
+fn clumps(scene: &Scene, clumps: &Clumps) -> PointCloud {
+    let three = |rows: &[[f64; 4]]| rows.iter().flat_map(|[x, y, z, _]| [*x, *y, *z]).collect::<Vec<_>>();
+    let turned = |(row, clump): (&[f64; 4], &Clump)| {
+        let axes = Quaternion::from_row(scene.clump_shapes[clump.shape as usize].axes);
+        (Quaternion::from_row(*row) * axes.conjugate()).to_row()
+    };
+    let all = scene.clumps.iter();
+    PointCloud {
+        points: three(&clumps.position),
+        fields: vec![
+            ("clump", Values::Integers((0..clumps.len() as i64).collect())),
+            ("shape", Values::Integers(all.clone().map(|it| i64::from(it.shape)).collect())),
+            ("scale", Values::Scalars(all.clone().map(|it| it.scale).collect())),
+            ("mass", Values::Scalars(all.clone().map(|it| it.mass).collect())),
+            ("orientation", Values::Quaternions(clumps.orientation.iter().zip(all).flat_map(turned).collect())),
+            ("velocity", Values::Vectors(three(&clumps.velocity))),
+            ("angular_velocity", Values::Vectors(three(&clumps.angular_velocity))),
+            ("force", Values::Vectors(three(&clumps.force))),
+            ("moment", Values::Vectors(three(&clumps.moment))),
+        ],
+        ..PointCloud::default()
+    }
 }
 
 /// The edges of the cell as lines.

@@ -1,7 +1,7 @@
 //! What is handed to the thread that writes.
 
 use crate::engine::simulation::{BondRecord, ContactRecord};
-use crate::engine::state::{BoundaryState, Break, CellState, Nodes, Particles, State};
+use crate::engine::state::{BoundaryState, Break, CellState, Clumps, Nodes, Particles, State};
 use crate::interface::Value;
 use std::sync::mpsc::SyncSender;
 
@@ -30,6 +30,8 @@ pub(crate) enum Job {
         boundaries: Option<(Vec<BoundaryState>, Vec<Nodes>)>,
         /// The periodic cell, if the scene has one.
         cell: Option<Box<CellState>>,
+        /// The clumps, if the scene has any.
+        clumps: Option<Box<Clumps>>,
     },
     /// A checkpoint.
     Checkpoint(Box<State>),

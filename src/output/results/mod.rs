@@ -9,6 +9,7 @@
 //! | `bonds_000000.vtu`, …       | the bonds of each frame, in a scene with bonds                    |
 //! | `boundaries_000000.vtu`, …  | the boundaries of each frame, if the scene asks for them          |
 //! | `cell_000000.vtu`, …        | the edges of the periodic cell at each frame, if there is one     |
+//! | `clumps_000000.vtu`, …      | the clumps at each frame, if there are any                        |
 //! | `particles.pvd`, …          | the times of the frames                                           |
 //! | `checkpoint.cograin`        | the state at the last checkpoint, to continue from bit for bit    |
 //! | `summary.json`              | counts, time steps, speed, energy book, momentum, why it ended    |
@@ -54,7 +55,7 @@ pub(crate) const SUMMARY: &str = "summary.json";
 pub(crate) const UNFINISHED: &str = "part";
 
 /// Kinds of frames: beginning of the names of their files.
-const FRAMES: [&str; 5] = ["particles", "contacts", "bonds", "boundaries", "cell"];
+const FRAMES: [&str; 6] = ["particles", "contacts", "bonds", "boundaries", "cell", "clumps"];
 
 /// File name of a frame.
 fn frame_name(kind: &str, number: usize) -> String {

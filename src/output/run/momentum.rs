@@ -10,7 +10,7 @@ use serde::Serialize;
 /// Momentum and the impulses that make it, at one time.
 #[derive(Clone, Copy, Debug)]
 struct Account {
-    /// Momentum of the free particles, and of groups along their free axes \[kg m/s\].
+    /// Momentum of the free particles and clumps, and of groups along their free axes \[kg m/s\].
     momentum: [f64; 3],
     /// Impulse on them since time 0 of the boundaries, along axes that are not free \[N s\].
     boundaries: [f64; 3],
@@ -27,7 +27,7 @@ struct Account {
 /// Change of momentum and the impulses that should make it \[N s\].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct MomentumBalance {
-    /// Change of momentum of the particles and groups that move freely \[N s\].
+    /// Change of momentum of the particles, clumps and groups that move freely \[N s\].
     pub change: [f64; 3],
     /// Impulse of gravity \[N s\].
     pub gravity: [f64; 3],
@@ -105,7 +105,7 @@ impl Start {
 fn account(scene: &Scene, state: &State) -> Account {
     let mut momentum = [0.0; 3];
     let particles = &state.particles;
-    for (slot, velocity) in particles.velocity.iter().enumerate() {
+    for (slot, velocity) in particles.velocity.iter().enumerate().filter(|(slot, _)| state.clump(*slot).is_none()) {
         let free = free_axes(scene, particles.owner[slot]);
         // The spheres of a group that turns have further velocities, whose momenta cancel.
         let along = match particles.group(slot) {
@@ -115,6 +115,9 @@ fn account(scene: &Scene, state: &State) -> Account {
         for axis in (0..3).filter(|&axis| free[axis]) {
             momentum[axis] += velocity[3] * along[axis];
         }
+    }
+    for [x, y, z, mass] in &state.clumps.velocity {
+        momentum.iter_mut().zip([x, y, z]).for_each(|(sum, part)| *sum += mass * part);
     }
     let (mut boundaries, mut of_bodies) = ([0.0; 3], [[0.0; 3]; 2]);
     for (boundary, moved) in scene.boundaries.iter().zip(&state.boundaries) {
@@ -141,7 +144,8 @@ fn free_axes(scene: &Scene, owner: u32) -> [bool; 3] {
     match (owner as usize).checked_sub(1) {
         _ if owner == IMAGE => [false; 3],
         None => [true; 3],
-        Some(group) => [0, 1, 2].map(|axis| scene.boundaries[group].axes[axis].is_free()),
+        // A clump, behind the boundaries, moves freely.
+        Some(group) => [0, 1, 2].map(|axis| scene.boundaries.get(group).is_none_or(|it| it.axes[axis].is_free())),
     }
 }
 
@@ -149,7 +153,9 @@ fn free_axes(scene: &Scene, owner: u32) -> [bool; 3] {
 fn constant_forces(scene: &Scene, state: &State) -> ([f64; 3], [f64; 3]) {
     let particles = &state.particles;
     let (mut weight, mut applied) = ([0.0; 3], [0.0; 3]);
-    for (slot, velocity) in particles.velocity.iter().enumerate() {
+    let masses = state.clumps.velocity.iter().map(|row| row[3]);
+    masses.for_each(|mass| weight.iter_mut().zip(scene.gravity).for_each(|(sum, part)| *sum += mass * part));
+    for (slot, velocity) in particles.velocity.iter().enumerate().filter(|(slot, _)| state.clump(*slot).is_none()) {
         let free = free_axes(scene, particles.owner[slot]);
         for axis in (0..3).filter(|&axis| free[axis]) {
             weight[axis] += velocity[3] * scene.gravity[axis];

@@ -1,10 +1,11 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
+use crate::base::geometry::lattice::STRAINS;
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
 use crate::interface::{Interface, MOST_COLUMNS};
 use crate::laws::contact::{Material, MaterialPair, PairProperties};
 use crate::scene::exchange::Amount;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Scene, Step};
 
 /// Part of the stable step above which a given step is said to be near it.
 const NEAR_THE_BOUND: f64 = 0.8;
@@ -84,7 +85,22 @@ fn missed(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             }
         }
     }
+    missed.extend(missed_by_cell(scene, simulation));
     missed
+}
+
+/// The same of stresses of a periodic cell.
+fn missed_by_cell(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+    let state = simulation.state();
+    let (Some(cell), Some(moved)) = (&scene.cell, &state.cell) else { return Vec::new() };
+    let served = (0..6).filter(|&component| matches!(cell.motion[component], CellMotion::Servo(_)));
+    let told = served.filter_map(|component| {
+        let (found, target) = (moved.mean_stress[component], 0.5 * (moved.start[component] + moved.end[component]));
+        let misses = state.clock.steps > 0 && (found - target).abs() > MISSED * target.abs();
+        let name = STRAINS[component];
+        misses.then(|| format!("[cell] servo: {name} has {found:.4e} Pa in the last interval, to be {target:.4e} Pa"))
+    });
+    told.collect()
 }
 
 /// On what insertions did not let come for want of room.

@@ -29,8 +29,11 @@ pub enum Ending {
 /// Numbers of things.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Counts {
-    /// Particles.
+    /// Particles, spheres of clumps among them.
     pub particles: usize,
+    /// Clumps, where there are any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clumps: Option<usize>,
     /// Boundaries.
     pub boundaries: usize,
     /// Contacts at the end, those with planes included.
@@ -183,6 +186,7 @@ impl Summary {
             threads: simulation.threads(),
             counts: Counts {
                 particles,
+                clumps: Some(state.clumps.len()).filter(|count| *count > 0),
                 boundaries: state.boundaries.len(),
                 contacts: meter.contacts,
                 mean_contacts: if session_steps > 0 { meter.contact_steps / session_steps as f64 } else { 0.0 },

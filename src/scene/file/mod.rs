@@ -16,6 +16,7 @@ use std::io::{Error, ErrorKind};
 use std::num::NonZeroUsize;
 use std::path::Path;
 use std::str::FromStr;
+pub(in crate::scene) use tables::Inertia;
 
 impl Scene {
     /// Reads a scene and the files that it names, whose paths count from the folder of the scene.

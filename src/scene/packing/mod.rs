@@ -45,7 +45,7 @@ pub(crate) type Sphere = ([f64; 3], f64);
 const MOST: usize = 50_000_000;
 
 /// What was expected instead of so many spheres; nothing if there is memory for them.
-fn too_many(count: f64) -> Option<String> {
+pub(crate) fn too_many(count: f64) -> Option<String> {
     let room = memory::available().map_or(MOST, |free| MOST.min((free / memory::SPHERE) as usize));
     match room {
         _ if count > MOST as f64 => Some(format!("at most {MOST} spheres")),

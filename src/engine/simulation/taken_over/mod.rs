@@ -12,8 +12,11 @@ pub use description::Description;
 
 use super::{RunError, Simulation, assemble};
 use crate::base::geometry::Quaternion;
+use crate::base::number::Vector;
+use crate::base::threads::Context;
 use crate::engine::boundaries::{nodes, placing, rigid_body};
 use crate::engine::cell::images;
+use crate::engine::clumps;
 use crate::engine::state::{State, StateFault};
 use crate::laws::bond::creation::Moment;
 use crate::scene::{CellMotion, Scene};
@@ -67,6 +70,7 @@ impl Simulation {
         state.clock.steps = reached.clock.steps;
         state.clock.rebuilds = reached.clock.rebuilds;
         put_particles(&mut state, reached, &numbers);
+        put_clumps(&scene, &mut state, reached, &numbers);
         put_boundaries(&scene, &mut state, reached, from);
         let rows = images::take_over(&mut state, reached, |there| numbers.at(there));
         begin_inputs(&scene, &mut state);
@@ -74,8 +78,12 @@ impl Simulation {
         let mut simulation = Self::with(scene, state);
         simulation.give_orientations();
         let there: Vec<_> = simulation.state.particles.position.clone();
-        let Self { scene, bodies, state, .. } = &mut simulation;
+        let standing = Context { step: 0.0, width: simulation.width, threads: None };
+        let Self { scene, bodies, clumps, state, .. } = &mut simulation;
         rigid_body::place_groups(scene, bodies, state);
+        if let Some(clumps) = clumps {
+            clumps.place(state, &standing);
+        }
         check_groups(scene, state, &there)?;
         exchange::take_gone(state, reached, &numbers);
         simulation.check_memory()?;
@@ -117,6 +125,29 @@ fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
     }
 }
 
+/// Lets clumps stand and move as those to which their spheres belonged.
+fn put_clumps(scene: &Scene, state: &mut State, reached: &State, numbers: &Numbers) {
+    let mut there = vec![None; scene.particles.len()];
+    for (index, here) in numbers.here.iter().enumerate() {
+        // What came by an insertion stands behind the scene's own.
+        let Some(place) = here.and_then(|here| there.get_mut(here as usize)) else { continue };
+        *place = reached.particles.slot_of(index as u32).and_then(|slot| reached.clump(slot));
+    }
+    for (index, clump) in scene.clumps.iter().enumerate() {
+        let Some(from) = there[clump.first as usize] else { continue };
+        let (own, other) = (&mut state.clumps, &reached.clumps);
+        for (own, other) in [
+            (&mut own.position, &other.position),
+            (&mut own.velocity, &other.velocity),
+            (&mut own.angular_momentum, &other.angular_momentum),
+        ] {
+            own[index][..3].copy_from_slice(&other[from][..3]);
+        }
+        own.orientation[index] = other.orientation[from];
+        clumps::set_spin(own, index);
+    }
+}
+
 /// Takes over the positions of boundaries of the same name, and the velocities of free axes.
 fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Description) {
     let time = state.clock.time;
@@ -155,7 +186,7 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
     }
 }
 
-/// Refuses a group that this scene puts elsewhere than its particles are, because they would jump.
+/// Refuses a group or clump that this scene puts elsewhere than its particles are, because they would jump.
 fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), RunError> {
     for boundary in &scene.boundaries {
         for &member in boundary.shape.members() {
@@ -165,6 +196,13 @@ fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), 
                 let (boundary, id) = (boundary.name.clone(), scene.particles[member as usize].id.0);
                 return Err(RunError::GroupElsewhere { boundary, id, way });
             }
+        }
+    }
+    for index in scene.clumps.iter().flat_map(|clump| scene.spheres_of(clump)) {
+        let (now, then) = (state.particles.position[index], there[index]);
+        let way = (Vector::from(now) - Vector::from(then)).length();
+        if way.is_nan() || way > IN_PLACE * now[3] {
+            return Err(RunError::ClumpElsewhere { id: scene.particles[index].id.0, way });
         }
     }
     Ok(())

@@ -68,14 +68,17 @@ fn idle_law(scene: &SceneDraft, bond: &Bond) -> Option<Finding> {
     }
     let members: Vec<usize> =
         (0..scene.particles.len()).filter(|index| bond.between.contains(&scene.particles[*index].set)).collect();
+    let of_clump = scene.clump_of_particles();
+    let rigid = |[a, b]: [usize; 2]| of_clump.get(a).is_some_and(|of| of.is_some() && *of == of_clump[b]);
     let closest = |reach: f64| {
         let mut spheres: Vec<([f64; 3], f64)> =
             members.iter().map(|index| (scene.particles[*index].position, 0.5 * reach)).collect();
         let originals = with_images(scene, &mut spheres, |_| reach);
         let mut least = f64::INFINITY;
         for_each_overlap(&spheres, |i, j, overlap| {
-            let sets = [i, j].map(|place| scene.particles[members[originals[place as usize] as usize]].set);
-            if (i.min(j) as usize) < members.len() && bond.joins(sets[0], sets[1]) {
+            let pair = [i, j].map(|place| members[originals[place as usize] as usize]);
+            let sets = pair.map(|index| scene.particles[index].set);
+            if (i.min(j) as usize) < members.len() && bond.joins(sets[0], sets[1]) && !rigid(pair) {
                 least = least.min(reach - overlap);
             }
         });

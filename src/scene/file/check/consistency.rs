@@ -230,11 +230,14 @@ fn governed(scene: &SceneDraft, a: usize, b: usize) -> bool {
     scene.contacts.iter().any(|law| law.between[a * scene.materials.len() + b])
 }
 
-/// The rigid group of each particle, counted from 1; 0 for free ones.
+/// The rigid group or clump of each particle, counted from 1; 0 for free ones.
 fn rigid_groups(scene: &SceneDraft) -> Vec<u32> {
     let mut group = vec![0; scene.particles.len()];
     for (number, boundary) in (1..).zip(&scene.boundaries) {
         boundary.shape.members().iter().for_each(|member| group[*member as usize] = number);
+    }
+    for (number, clump) in (1 + scene.boundaries.len() as u32..).zip(&scene.clumps) {
+        group[scene.spheres_of(clump)].fill(number);
     }
     group
 }

@@ -4,6 +4,7 @@ mod body;
 mod bonded_pairs;
 mod bonds;
 mod boundaries;
+mod clumps;
 mod consistency;
 mod contacts;
 mod damping;
@@ -23,10 +24,10 @@ use super::tables::{RunTable, StepKey};
 use crate::base::document::{Document, Faults, Mistake, SceneErrors};
 use crate::laws::region;
 use crate::laws::surface::Files;
-use crate::scene::cell;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
 use crate::scene::{Accuracy, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{cell, clump};
 use finding::Finding;
 use raw_tables::RawTables;
 
@@ -68,6 +69,8 @@ pub(super) fn scene(
         contacts: laws,
         sets: born.sets,
         particles: born.particles,
+        clump_shapes: born.shapes,
+        clumps: born.clumps,
         boundaries,
         damping,
         forces,
@@ -98,6 +101,10 @@ impl SceneDraft {
         let mut faults = Faults::new(&document);
         values::check(&self, &mut faults);
         faults.so_far()?;
+        if let Some((table, key, mistake)) = clump::faults(&self) {
+            faults.add(&table, key, mistake);
+            faults.so_far()?;
+        }
         boundaries::check(&self, &mut faults);
         bonds::check(&self, &mut faults);
         motion::damping(&self.boundaries, &self.damping, &mut faults);
@@ -113,8 +120,9 @@ fn relations(draft: &SceneDraft, document: &Document, faults: &mut Faults) {
     }
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
-    let of_cell = cell::objections(draft).into_iter().map(|(table, key, mistake)| Finding::at(table, key, mistake));
-    for finding in found.chain(of_cell) {
+    let others = cell::objections(draft).into_iter().chain(clump::objections(draft));
+    let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
+    for finding in found.chain(others) {
         report(finding, document, faults);
     }
 }

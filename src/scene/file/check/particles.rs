@@ -12,7 +12,7 @@ use crate::scene::Source;
 use crate::scene::file::tables::ParticlesTable;
 use crate::scene::import::REPORTED;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Particle, Run};
+use crate::scene::{Clump, ClumpShape, Particle, Run, clump};
 use std::collections::BTreeMap;
 
 /// All particles, and where each comes from.
@@ -22,6 +22,10 @@ pub(super) struct ReadParticles {
     pub(super) particles: Vec<Particle>,
     /// Row in its set, of each.
     pub(super) rows: Vec<u32>,
+    /// Shapes of clumps.
+    pub(super) shapes: Vec<ClumpShape>,
+    /// Clumps.
+    pub(super) clumps: Vec<Clump>,
     /// Names of the sets.
     pub(super) sets: Vec<String>,
     /// Columns of each set that damping asks for.
@@ -44,12 +48,27 @@ pub(super) fn particles(
     let seed = written.run.seed.unwrap_or(Run::default().seed);
     let shape = written.run.plane_particles.unwrap_or_default();
     let mut born = ReadParticles::default();
+    let before = faults.count();
+    born.shapes = super::clumps::shapes(&written.clumps, faults);
+    if faults.count() > before {
+        return born;
+    }
     let mut places = Vec::new();
     let mut newborn = Vec::new();
     for (index, (name, table)) in written.particles.iter().enumerate() {
         let set = SetIndex(index as u32);
-        let reader = SetReader { table: format!("particles.{name}"), set, written: table, materials, seed, shape };
-        let (list, place, columns) = reader.read(source, &extra, faults, tell);
+        let reader = SetReader {
+            table: format!("particles.{name}"),
+            set,
+            written: table,
+            materials,
+            seed,
+            shape,
+            shapes: &born.shapes,
+            keys: &written.clumps,
+        };
+        let (list, clumps, place, columns) = reader.read(source, &extra, faults, tell);
+        born.clumps.extend(clumps);
         newborn.extend((0..).zip(list));
         born.sets.push(name.clone());
         born.columns.push(columns);
@@ -68,16 +87,16 @@ fn number(
     faults: &mut Faults,
 ) {
     let mut next = newborn.iter().filter_map(|(_, newborn)| newborn.id).max().map_or(1, |id| u64::from(id) + 1);
-    let mut all: Vec<(u64, u32, Particle)> = Vec::with_capacity(newborn.len());
+    let mut all: Vec<(u64, u32, bool, Particle)> = Vec::with_capacity(newborn.len());
     for (row, newborn) in newborn {
         let id = newborn.id.map_or(next, u64::from);
         next += u64::from(newborn.id.is_none());
-        all.push((id, row, newborn.particle));
+        all.push((id, row, newborn.is_of_clump, newborn.particle));
     }
     all.sort_by_key(|(id, ..)| *id);
     for two in all.windows(2).filter(|two| two[0].0 == two[1].0).take(REPORTED) {
-        let (id, row, particle) = &two[1];
-        let other = sets[two[0].2.set.index()].0.clone();
+        let (id, row, _, particle) = &two[1];
+        let other = sets[two[0].3.set.index()].0.clone();
         let mistake = Mistake::DuplicateId { id: *id as u32, other };
         let set = particle.set.index();
         places[set].report(&format!("particles.{}", sets[set].0), *row as usize, "id", mistake, faults);
@@ -88,7 +107,8 @@ fn number(
     }
     born.particles.reserve_exact(all.len());
     born.rows.reserve_exact(all.len());
-    for (id, row, mut particle) in all {
+    clump::number(&mut born.clumps, &born.shapes, all.iter().map(|(_, _, is_of_clump, _)| *is_of_clump));
+    for (id, row, _, mut particle) in all {
         particle.id = ParticleId(id as u32);
         born.particles.push(particle);
         born.rows.push(row);

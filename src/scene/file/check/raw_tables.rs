@@ -11,6 +11,7 @@ use crate::laws::contact::{
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
 use crate::scene::cell::CellKeys;
+use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
@@ -35,6 +36,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) contacts: Named<Law>,
     /// `[bond.<name>]`
     pub(super) bonds: Named<Keys>,
+    /// `[clump.<name>]`
+    pub(super) clumps: Named<ClumpKeys>,
     /// `[particles.<name>]`
     pub(super) particles: Named<ParticlesTable>,
     /// `[boundary.<name>]`
@@ -135,6 +138,7 @@ impl RawTables {
         let pairs = pairs(document, faults);
         let contacts = laws(document, models, faults);
         let bonds = bonds(document, models, faults);
+        let clumps = all(document, "clump", faults);
         let particles = all(document, "particles", faults);
         let boundaries = boundaries(document, models, faults);
         let damping = all(document, "damping", faults);
@@ -161,6 +165,7 @@ impl RawTables {
             pairs,
             contacts,
             bonds,
+            clumps,
             particles,
             boundaries,
             hints: models.shapes.iter().map(|row| row.hint).collect(),

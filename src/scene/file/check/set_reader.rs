@@ -1,22 +1,26 @@
 //! The particles of one set, before they have numbers.
 
 use super::contacts::unknown_material;
+use super::named_tables::Named;
 use super::place::Place;
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
 use crate::laws::contact::Material;
 use crate::scene::Source;
+use crate::scene::clump::ClumpKeys;
 use crate::scene::file::tables::{ListEntry, ParticlesTable, Triple};
 use crate::scene::import::{self, REPORTED, Request, Rows};
 use crate::scene::packing::{self, PackingProgress};
-use crate::scene::{Particle, ParticleShape};
+use crate::scene::{Clump, ClumpShape, Particle, ParticleShape};
 use std::collections::BTreeMap;
 
 /// A particle whose number is not yet known.
 pub(super) struct Unnumbered {
     /// Its number, if the scene gives one.
     pub(super) id: Option<u32>,
+    /// Whether it is a sphere of a clump.
+    pub(super) is_of_clump: bool,
     /// The rest; its number means nothing.
     pub(super) particle: Particle,
 }
@@ -35,10 +39,14 @@ pub(super) struct SetReader<'a> {
     pub(super) seed: u64,
     /// What all particles are.
     pub(super) shape: ParticleShape,
+    /// Shapes of clumps.
+    pub(super) shapes: &'a [ClumpShape],
+    /// What is written about each of them.
+    pub(super) keys: &'a Named<ClumpKeys>,
 }
 
-/// The particles of a set, their place, and the columns that damping asks for.
-pub(super) type ReadSet = (Vec<Unnumbered>, Place, BTreeMap<String, Vec<f64>>);
+/// The particles of a set, the clumps that they are spheres of, their place, and the columns that damping asks for.
+pub(super) type ReadSet = (Vec<Unnumbered>, Vec<Clump>, Place, BTreeMap<String, Vec<f64>>);
 
 impl SetReader<'_> {
     /// Reads the set.
@@ -49,13 +57,16 @@ impl SetReader<'_> {
         faults: &mut Faults,
         tell: &mut dyn FnMut(PackingProgress),
     ) -> ReadSet {
-        let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
+        let nobody = (Vec::new(), Vec::new(), Place::Nowhere, BTreeMap::new());
         if !self.has_one_origin(faults) {
             return nobody;
         }
+        if let Some(name) = &self.written.clump {
+            return self.clumps(name, source, extra, faults, tell).unwrap_or(nobody);
+        }
         let ParticlesTable { list, file, lattice, packing, .. } = self.written;
         if let Some(list) = list {
-            return (self.listed(list, faults), Place::List, BTreeMap::new());
+            return (self.listed(list, faults), Vec::new(), Place::List, BTreeMap::new());
         }
         if let Some(file) = file {
             return self.filed(file, source, extra, faults);
@@ -66,7 +77,7 @@ impl SetReader<'_> {
             (None, None) => Ok(Vec::new()),
         };
         match spheres {
-            Ok(spheres) => (self.generated(&spheres, faults), Place::Nowhere, BTreeMap::new()),
+            Ok(spheres) => (self.generated(&spheres, faults), Vec::new(), Place::Nowhere, BTreeMap::new()),
             Err((key, mistake)) => {
                 faults.add(&self.table, key, mistake);
                 nobody
@@ -107,6 +118,11 @@ impl SetReader<'_> {
             let (what, expected) = ("this is about a file, and there is none".to_owned(), "leave it out".to_owned());
             faults.add(&self.table, key, Mistake::InvalidCombination { what, expected });
         }
+        if written.orientation.is_some() && written.clump.is_none() {
+            let (what, expected) =
+                ("spheres have no orientation".to_owned(), "clump = \"..\" beside it, or leave it out".to_owned());
+            faults.add(&self.table, "orientation", Mistake::InvalidCombination { what, expected });
+        }
         true
     }
 
@@ -118,6 +134,7 @@ impl SetReader<'_> {
         let Some(material) = self.fallback(faults) else { return Vec::new() };
         let newborn = |(position, radius): &([f64; 3], f64)| Unnumbered {
             id: None,
+            is_of_clump: false,
             particle: self.particle(material, *position, *radius),
         };
         spheres.iter().map(newborn).collect()
@@ -139,33 +156,59 @@ impl SetReader<'_> {
                 }
                 continue;
             };
-            let mut particle = self.particle(material, entry.position.0, entry.radius.get());
+            let Some(radius) = entry.radius.filter(|_| entry.scale.is_none() && entry.orientation.is_none()) else {
+                self.no_sphere(row, entry, faults);
+                break;
+            };
+            let mut particle = self.particle(material, entry.position.0, radius.get());
             let or = |own: Option<Triple>, otherwise| own.map_or(otherwise, |own| own.0);
             particle.density = entry.density.map_or(particle.density, crate::base::quantity::Positive::get);
             particle.velocity = or(entry.velocity, particle.velocity);
             particle.angular_velocity = or(entry.angular_velocity, particle.angular_velocity);
-            newborn.push(Unnumbered { id: entry.id, particle });
+            newborn.push(Unnumbered { id: entry.id, is_of_clump: false, particle });
         }
         newborn
     }
 
     /// Particles from a file.
     fn filed(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> ReadSet {
-        let nobody = (Vec::new(), Place::Nowhere, BTreeMap::new());
-        let Some(bytes) = source.files.get(file) else { return nobody };
+        match self.read_file(file, source, extra, faults) {
+            Some(rows) => self.rows(file, rows, extra, faults),
+            None => (Vec::new(), Vec::new(), Place::Nowhere, BTreeMap::new()),
+        }
+    }
+
+    /// The rows of a file.
+    pub(super) fn read_file(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> Option<Rows> {
+        let bytes = source.files.get(file)?;
         let ParticlesTable { format, units, timestep, .. } = *self.written;
-        match import::read(bytes, &Request { file, extra, format, units, timestep }) {
-            Ok(rows) => self.rows(file, rows, extra, faults),
-            Err(list) => {
-                for fault in list {
-                    // What the scene says about the file is mistaken in the scene.
-                    if ["units", "timestep"].contains(&fault.column.as_str()) {
-                        faults.add(&self.table, &fault.column, fault.mistake);
-                        continue;
-                    }
-                    faults.in_file(file, fault.line, &self.table, &fault.column, fault.mistake);
-                }
-                nobody
+        let list = match import::read(bytes, &Request { file, extra, format, units, timestep }) {
+            Ok(rows) => return Some(rows),
+            Err(list) => list,
+        };
+        for fault in list {
+            // What the scene says about the file is mistaken in the scene.
+            if ["units", "timestep"].contains(&fault.column.as_str()) {
+                faults.add(&self.table, &fault.column, fault.mistake);
+                continue;
+            }
+            faults.in_file(file, fault.line, &self.table, &fault.column, fault.mistake);
+        }
+        None
+    }
+
+    /// Reports what makes an entry of a list no sphere.
+    fn no_sphere(&self, row: usize, entry: &ListEntry, faults: &mut Faults) {
+        let at = |key: &str| format!("list.{}.{key}", row + 1);
+        if entry.radius.is_none() {
+            let expected = "this table needs it".to_owned();
+            faults.add(&self.table, &at("radius"), Mistake::Missing { expected });
+        }
+        for (key, given) in [("scale", entry.scale.is_some()), ("orientation", entry.orientation.is_some())] {
+            if given {
+                let (what, expected) = ("it is a key of clumps", "clump = \"..\" in this table, or leave it out");
+                let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
+                faults.add(&self.table, &at(key), mistake);
             }
         }
     }
@@ -204,14 +247,14 @@ impl SetReader<'_> {
                     faults.in_file(file, rows.line(row), &self.table, key, mistake);
                 }
             }
-            newborn.push(Unnumbered { id: number.map(|number| number as u32), particle });
+            newborn.push(Unnumbered { id: number.map(|number| number as u32), is_of_clump: false, particle });
         }
         let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
-        (newborn, Place::File(file.to_owned(), rows.lines), columns)
+        (newborn, Vec::new(), Place::File(file.to_owned(), rows.lines), columns)
     }
 
     /// The material of each label of a file; of the set, if the file has none.
-    fn labelled(&self, file: &str, rows: &Rows, faults: &mut Faults) -> Vec<Option<MaterialIndex>> {
+    pub(super) fn labelled(&self, file: &str, rows: &Rows, faults: &mut Faults) -> Vec<Option<MaterialIndex>> {
         if rows.label.is_empty() {
             if self.written.material.is_none() && rows.count > 0 {
                 self.no_material(faults);
@@ -250,7 +293,7 @@ impl SetReader<'_> {
     }
 
     /// A particle of which only this is known.
-    fn particle(&self, material: MaterialIndex, position: [f64; 3], radius: f64) -> Particle {
+    pub(super) fn particle(&self, material: MaterialIndex, position: [f64; 3], radius: f64) -> Particle {
         let own = self.written.density.map(crate::base::quantity::Positive::get);
         Particle {
             id: ParticleId(0),
@@ -266,17 +309,17 @@ impl SetReader<'_> {
     }
 
     /// The set's own material.
-    fn fallback(&self, faults: &mut Faults) -> Option<MaterialIndex> {
+    pub(super) fn fallback(&self, faults: &mut Faults) -> Option<MaterialIndex> {
         self.written.material.as_ref().and_then(|name| self.material(name, "material", faults))
     }
 
     /// Where a material stands.
-    fn material(&self, name: &str, key: &str, faults: &mut Faults) -> Option<MaterialIndex> {
+    pub(super) fn material(&self, name: &str, key: &str, faults: &mut Faults) -> Option<MaterialIndex> {
         super::contacts::material_index(self.materials, name, &self.table, key, faults)
     }
 
     /// Neither the set nor its particles say what they are made of.
-    fn no_material(&self, faults: &mut Faults) {
+    pub(super) fn no_material(&self, faults: &mut Faults) {
         let expected = "the name of a [material] table".to_owned();
         faults.add(&self.table, "material", Mistake::Missing { expected });
     }

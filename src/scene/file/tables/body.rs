@@ -12,7 +12,7 @@ pub(in crate::scene::file) type Supports = BTreeMap<Axis, NonNegative>;
 
 /// A symmetric, positive definite matrix: three moments of inertia, or the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::scene::file) struct Inertia(pub(in crate::scene::file) [[f64; 3]; 3]);
+pub(in crate::scene) struct Inertia(pub(in crate::scene) [[f64; 3]; 3]);
 
 impl<'de> Deserialize<'de> for Inertia {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -7,7 +7,8 @@ mod values;
 
 pub(super) use crate::base::quantity::{Corners, Triple};
 pub(super) use crate::laws::surface::Selection;
-pub(super) use body::{Inertia, Supports, is_positive_definite};
+pub(in crate::scene) use body::Inertia;
+pub(super) use body::{Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
 pub(super) use particles::{ListEntry, ParticlesTable};
 pub(super) use values::{MaterialPairs, StepKey};
@@ -22,7 +23,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 20] = [
+pub(in crate::scene::file) const TABLES: [&str; 21] = [
     "about",
     "run",
     "gravity",
@@ -30,6 +31,7 @@ pub(in crate::scene::file) const TABLES: [&str; 20] = [
     "pair",
     "contact",
     "bond",
+    "clump",
     "particles",
     "boundary",
     "damping",

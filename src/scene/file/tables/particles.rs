@@ -1,6 +1,7 @@
 //! `[particles.<name>]`
 
 use crate::base::quantity::{Positive, Triple};
+use crate::scene::clump::OrientationKey;
 use crate::scene::import::{Format, Units};
 use crate::scene::packing::{LatticeTable, PackingTable};
 use serde::Deserialize;
@@ -21,6 +22,10 @@ pub(in crate::scene::file) struct ParticlesTable {
     pub(in crate::scene::file) velocity: Option<Triple>,
     /// Angular velocity of those that have none of their own \[rad/s\].
     pub(in crate::scene::file) angular_velocity: Option<Triple>,
+    /// The clump that each of them is; absent: spheres.
+    pub(in crate::scene::file) clump: Option<String>,
+    /// How the clumps are turned that have no orientation of their own.
+    pub(in crate::scene::file) orientation: Option<OrientationKey>,
     /// The particles, one by one.
     pub(in crate::scene::file) list: Option<Vec<ListEntry>>,
     /// A file of particles.
@@ -41,10 +46,14 @@ pub(in crate::scene::file) struct ParticlesTable {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene::file) struct ListEntry {
-    /// Position of the centre \[m\].
+    /// Position of the centre, of clumps of the mass centre \[m\].
     pub(in crate::scene::file) position: Triple,
-    /// Radius \[m\].
-    pub(in crate::scene::file) radius: Positive,
+    /// Radius, of clumps that of the bounding sphere about the mass centre \[m\].
+    pub(in crate::scene::file) radius: Option<Positive>,
+    /// All lengths of a clump over those of its table.
+    pub(in crate::scene::file) scale: Option<Positive>,
+    /// How a clump is turned.
+    pub(in crate::scene::file) orientation: Option<OrientationKey>,
     /// Its number.
     pub(in crate::scene::file) id: Option<u32>,
     /// Its material.

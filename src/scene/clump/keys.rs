@@ -1,0 +1,151 @@
+//! Clumps as the scene writes them.
+
+use super::ClumpShape;
+use super::moments::principal;
+use super::union::moments;
+use crate::base::document::Mistake;
+use crate::base::quantity::{Numbers, Positive, Triple};
+use crate::scene::file::Inertia;
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
+
+/// Most spheres that a clump may have.
+const MOST_SPHERES: usize = 256;
+
+/// `[clump.<name>]`
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene) struct ClumpKeys {
+    /// Its spheres, in its own frame.
+    spheres: Vec<SphereKeys>,
+    /// Material where a set names none.
+    pub(in crate::scene) material: Option<String>,
+    /// Density where a set gives none \[kg/m³\].
+    pub(in crate::scene) density: Option<Positive>,
+    /// Mass \[kg\].
+    mass: Option<Positive>,
+    /// Inertia about the mass centre \[kg m²\].
+    inertia: Option<Inertia>,
+    /// Mass centre \[m\].
+    centre: Option<Triple>,
+}
+
+/// A sphere of a clump.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SphereKeys {
+    /// Its centre \[m\].
+    position: Triple,
+    /// Its radius \[m\].
+    radius: Positive,
+}
+
+impl ClumpKeys {
+    /// The shape; reports what is wrong.
+    pub(in crate::scene) fn shape(&self, name: &str, report: &mut dyn FnMut(&str, Mistake)) -> Option<ClumpShape> {
+        let mut unexpected = |key: &str, found: String, expected: &str| {
+            report(key, Mistake::Unexpected { found, expected: expected.to_owned() });
+        };
+        let count = self.spheres.len();
+        if count == 0 || count > MOST_SPHERES {
+            unexpected("spheres", format!("{count}"), &format!("1 to {MOST_SPHERES} spheres"));
+            return None;
+        }
+        let spheres: Vec<_> = self.spheres.iter().map(|it| (it.position.get(), it.radius.get())).collect();
+        if let (Some(_), None) = (self.inertia, self.mass) {
+            report("mass", Mistake::Missing { expected: "an inertia is that of a mass".to_owned() });
+            return None;
+        }
+        // About one of the spheres, so that nothing is lost far from the origin of the frame.
+        let base = spheres[0].0;
+        let about: Vec<_> =
+            spheres.iter().map(|(place, radius)| ([0, 1, 2].map(|k| place[k] - base[k]), *radius)).collect();
+        let (union, error) = moments(&about);
+        let of_union = union.first.map(|first| first / union.volume);
+        let from_base = self.centre.map_or(of_union, |centre| [0, 1, 2].map(|k| centre.get()[k] - base[k]));
+        let centre = self.centre.map_or([0, 1, 2].map(|k| base[k] + of_union[k]), Triple::get);
+        // Second moments about the mass centre, over the volume.
+        let [xx, yy, zz, xy, xz, yz] = union.second.map(|second| second / union.volume);
+        let c = from_base;
+        let (f, s) = (of_union, [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]);
+        let second = |i: usize, j: usize| s[i][j] - f[i] * c[j] - c[i] * f[j] + c[i] * c[j];
+        let trace = second(0, 0) + second(1, 1) + second(2, 2);
+        let own = [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { trace - second(i, i) } else { -second(i, j) }));
+        let over_mass = match (self.inertia, self.mass) {
+            (Some(Inertia(rows)), Some(mass)) => rows.map(|row| row.map(|part| part / mass.get())),
+            _ => own,
+        };
+        let (gyration, axes) = principal(over_mass);
+        let [a, b, c] = gyration;
+        let bodily = |a: f64, b: f64, c: f64| a > 0.0 && a <= (b + c) * (1.0 + 1e-9);
+        if !(bodily(a, b, c) && bodily(b, c, a) && bodily(c, a, b) && union.volume.is_normal()) {
+            let found = format!("principal moments {gyration:?} m² over the mass");
+            unexpected("inertia", found, "moments above 0, none above the sum of the others, as bodies have");
+            return None;
+        }
+        Some(ClumpShape {
+            name: name.to_owned(),
+            spheres,
+            mass: self.mass.map(Positive::get),
+            volume: union.volume,
+            centre,
+            axes: axes.to_row(),
+            gyration,
+            error: if self.inertia.is_some() { 0.0 } else { error },
+        })
+    }
+}
+
+/// How the own frames of clumps are turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene) enum OrientationKey {
+    /// By this unit quaternion: scalar, x, y, z.
+    Turned([f64; 4]),
+    /// Principal axes along x, y, z.
+    PrincipalAxes,
+    /// All orientations alike, by the seed of the scene.
+    Random,
+}
+
+/// What is expected.
+const ORIENTATION: &str = "a quaternion [w, x, y, z] that is not zero, \"random\" or \"principal_axes\"";
+
+impl<'de> Deserialize<'de> for OrientationKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a word or a list.
+        struct WordOrList;
+        impl<'de> Visitor<'de> for WordOrList {
+            type Value = OrientationKey;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(ORIENTATION)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<OrientationKey, E> {
+                match word {
+                    "random" => Ok(OrientationKey::Random),
+                    "principal_axes" => Ok(OrientationKey::PrincipalAxes),
+                    _ => Err(E::custom(format!("expected {ORIENTATION}, found {word:?}"))),
+                }
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<OrientationKey, A::Error> {
+                let parts: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|part| part.get()).collect();
+                let refused = || A::Error::custom(format!("expected {ORIENTATION}, found {parts:?}"));
+                let row = <[f64; 4]>::try_from(&parts[..]).map_err(|_| refused())?;
+                unit(row).map(OrientationKey::Turned).ok_or_else(refused)
+            }
+        }
+        deserializer.deserialize_any(WordOrList)
+    }
+}
+
+/// The unit quaternion of the same turn; none of zero.
+pub(in crate::scene) fn unit(row: [f64; 4]) -> Option<[f64; 4]> {
+    let largest = row.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    if !(largest > 0.0 && largest.is_finite()) {
+        return None;
+    }
+    // Neither squares too large nor too small for a number.
+    let row = row.map(|part| part / largest);
+    let length = row.iter().map(|part| part * part).sum::<f64>().sqrt();
+    Some(row.map(|part| part / length))
+}

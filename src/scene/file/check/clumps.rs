@@ -1,0 +1,285 @@
+//! Sets of clumps: where each is placed, and the spheres that follow.
+
+use super::named_tables::Named;
+use super::place::Place;
+use super::set_reader::{ReadSet, SetReader, Unnumbered};
+use crate::base::document::{Faults, Mistake};
+use crate::base::geometry::Quaternion;
+use crate::base::number::Vector;
+use crate::base::quantity::{MaterialIndex, Positive};
+use crate::scene::clump::{ClumpKeys, OrientationKey, spheres, unit};
+use crate::scene::file::tables::{ListEntry, ParticlesTable};
+use crate::scene::packing::generator::{generator, uniform};
+use crate::scene::packing::{self, PackingProgress};
+use crate::scene::{Clump, ClumpShape, Particle, Source};
+use rand_chacha::ChaCha8Rng;
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+/// Columns of a file that say how a clump is turned.
+const TURN: [&str; 4] = ["qw", "qx", "qy", "qz"];
+
+/// How large a clump is.
+#[derive(Clone, Copy)]
+enum Size {
+    /// All lengths over those of the shape.
+    Scale(f64),
+    /// Radius of the bounding sphere \[m\].
+    Bounding(f64),
+}
+
+/// Where a clump is to be, and of what.
+struct Placed {
+    /// What its spheres are like; the position is that of the mass centre.
+    like: Particle,
+    /// How large.
+    size: Size,
+    /// How its own frame is turned.
+    orientation: OrientationKey,
+    /// Density, if it has one of its own \[kg/m³\].
+    density: Option<f64>,
+}
+
+impl SetReader<'_> {
+    /// Reads a set of clumps of this name; none where a mistake was reported.
+    pub(super) fn clumps(
+        &self,
+        name: &str,
+        source: &Source,
+        extra: &[String],
+        faults: &mut Faults,
+        tell: &mut dyn FnMut(PackingProgress),
+    ) -> Option<ReadSet> {
+        let before = faults.count();
+        let Some(index) = self.keys.iter().position(|(known, _)| known == name) else {
+            let known = self.keys.iter().map(|(name, _)| name.clone()).collect();
+            faults.add(&self.table, "clump", Mistake::UnknownName { found: name.to_owned(), kind: "clump", known });
+            return None;
+        };
+        let (shape, keys) = (&self.shapes[index], &self.keys[index].1);
+        let (placed, place, columns) = self.placed(keys, source, extra, faults, tell)?;
+        if shape.mass.is_some() && placed.iter().any(|it| it.density.is_some()) {
+            let what = format!("[clump.{name}] has a mass");
+            let expected = "leave density out".to_owned();
+            faults.add(&self.table, "density", Mistake::InvalidCombination { what, expected });
+        }
+        let all = (placed.len() * shape.spheres.len()) as f64;
+        if let Some(expected) = packing::too_many(all) {
+            faults.add(&self.table, "clump", Mistake::Unexpected { found: format!("{all} spheres"), expected });
+        }
+        if faults.count() > before {
+            return None;
+        }
+        let mut random = generator(self.seed, &format!("{}.orientation", self.table));
+        let (mut particles, mut clumps, mut rows) = (Vec::new(), Vec::new(), Vec::new());
+        for (row, Placed { like, size, orientation, density }) in placed.into_iter().enumerate() {
+            let scale = match size {
+                Size::Scale(scale) => scale,
+                Size::Bounding(radius) => radius / shape.bounding_radius(),
+            };
+            let turn = match orientation {
+                OrientationKey::Turned(row) => Quaternion::from_row(row),
+                OrientationKey::PrincipalAxes => Quaternion::from_row(shape.axes).conjugate(),
+                OrientationKey::Random => any_turn(&mut random),
+            };
+            let density = density.or(keys.density.map(Positive::get)).unwrap_or(like.density);
+            let motion = [like.velocity, like.angular_velocity];
+            let clump = Clump::of((shape, index as u32), (scale, density), (like.position, turn), motion);
+            for particle in spheres(&clump, shape, &like) {
+                particles.push(Unnumbered { id: None, is_of_clump: true, particle });
+                rows.push(row);
+            }
+            clumps.push(clump);
+        }
+        // Damping and messages ask by sphere.
+        let by_sphere = |column: Vec<f64>| rows.iter().map(|&row| column[row]).collect();
+        let columns = columns.into_iter().map(|(name, column)| (name, by_sphere(column))).collect();
+        let place = match place {
+            Place::File(file, lines) => {
+                let lines = if lines.is_empty() { lines } else { rows.iter().map(|&row| lines[row]).collect() };
+                Place::File(file, lines)
+            }
+            other => other,
+        };
+        Some((particles, clumps, place, columns))
+    }
+
+    /// Where the clumps of the set are to be.
+    fn placed(
+        &self,
+        keys: &ClumpKeys,
+        source: &Source,
+        extra: &[String],
+        faults: &mut Faults,
+        tell: &mut dyn FnMut(PackingProgress),
+    ) -> Option<(Vec<Placed>, Place, BTreeMap<String, Vec<f64>>)> {
+        let ParticlesTable { list, file, lattice, packing, .. } = self.written;
+        let fallback = self.clump_material(keys, faults);
+        if let Some(list) = list {
+            return Some((self.listed_clumps(list, fallback, faults), Place::Nowhere, BTreeMap::new()));
+        }
+        if let Some(file) = file {
+            return self.filed_clumps(file, fallback, source, extra, faults);
+        }
+        let bounding = match (lattice, packing) {
+            (Some(lattice), _) => packing::lattice(lattice),
+            (_, Some(packing)) => packing::packing(packing, self.seed, &self.table, tell),
+            (None, None) => Ok(Vec::new()),
+        };
+        let bounding = bounding.map_err(|(key, mistake)| faults.add(&self.table, key, mistake)).ok()?;
+        let Some(material) = fallback else {
+            self.no_material(faults);
+            return None;
+        };
+        let placed = bounding.into_iter().map(|(position, radius)| {
+            self.like(self.particle(material, position, radius), Size::Bounding(radius), None)
+        });
+        Some((placed.collect(), Place::Nowhere, BTreeMap::new()))
+    }
+
+    /// The material of clumps that name none.
+    fn clump_material(&self, keys: &ClumpKeys, faults: &mut Faults) -> Option<MaterialIndex> {
+        if self.written.material.is_some() {
+            return self.fallback(faults);
+        }
+        let name = keys.material.as_ref()?;
+        let table = format!("clump.{}", self.written.clump.as_deref().unwrap_or_default());
+        super::contacts::material_index(self.materials, name, &table, "material", faults)
+    }
+
+    /// A clump with what the set says of all.
+    fn like(&self, like: Particle, size: Size, orientation: Option<OrientationKey>) -> Placed {
+        let own = orientation.or(self.written.orientation);
+        Placed {
+            like,
+            size,
+            orientation: own.unwrap_or(OrientationKey::Turned([1.0, 0.0, 0.0, 0.0])),
+            density: self.written.density.map(Positive::get),
+        }
+    }
+
+    /// Clumps written one by one.
+    fn listed_clumps(&self, list: &[ListEntry], fallback: Option<MaterialIndex>, faults: &mut Faults) -> Vec<Placed> {
+        let mut placed = Vec::new();
+        for (row, entry) in list.iter().enumerate() {
+            let at = |key: &str| format!("list.{}.{key}", row + 1);
+            let material = match &entry.material {
+                Some(name) => self.material(name, &at("material"), faults),
+                None => fallback,
+            };
+            let Some(material) = material else {
+                if entry.material.is_none() && fallback.is_none() {
+                    self.no_material(faults);
+                    break;
+                }
+                continue;
+            };
+            if entry.id.is_some() {
+                let (what, expected) = ("spheres of clumps get their numbers by themselves", "leave it out");
+                let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
+                faults.add(&self.table, &at("id"), mistake);
+            }
+            let size = match (entry.scale, entry.radius) {
+                (Some(_), Some(_)) => {
+                    let (found, expected) = ("scale and radius".to_owned(), "one of them".to_owned());
+                    faults.add(&self.table, &at("scale"), Mistake::Unexpected { found, expected });
+                    continue;
+                }
+                (Some(scale), None) => Size::Scale(scale.get()),
+                (None, Some(radius)) => Size::Bounding(radius.get()),
+                (None, None) => Size::Scale(1.0),
+            };
+            let mut like = self.particle(material, entry.position.get(), 0.0);
+            like.velocity = entry.velocity.map_or(like.velocity, |it| it.get());
+            like.angular_velocity = entry.angular_velocity.map_or(like.angular_velocity, |it| it.get());
+            let mut one = self.like(like, size, entry.orientation);
+            one.density = entry.density.map(Positive::get).or(one.density);
+            placed.push(one);
+        }
+        placed
+    }
+
+    /// Clumps from the rows of a file.
+    fn filed_clumps(
+        &self,
+        file: &str,
+        fallback: Option<MaterialIndex>,
+        source: &Source,
+        extra: &[String],
+        faults: &mut Faults,
+    ) -> Option<(Vec<Placed>, Place, BTreeMap<String, Vec<f64>>)> {
+        let wanted: Vec<String> = extra.iter().cloned().chain(TURN.map(str::to_owned)).collect();
+        let mut rows = self.read_file(file, source, &wanted, faults)?;
+        let by_label = if rows.label.is_empty() { vec![fallback] } else { self.labelled(file, &rows, faults) };
+        if rows.label.is_empty() && fallback.is_none() {
+            self.no_material(faults);
+            return None;
+        }
+        let column = |name: &str| rows.columns.get(name);
+        let three = |names: [&str; 3], row: usize| {
+            let columns = names.map(column);
+            columns.iter().any(Option::is_some).then(|| columns.map(|column| column.map_or(0.0, |it| it[row])))
+        };
+        let turned = TURN.map(column);
+        if turned.iter().any(Option::is_some) && !turned.iter().all(Option::is_some) {
+            let found = "some of qw, qx, qy, qz".to_owned();
+            let mistake = Mistake::Unexpected { found, expected: "all four columns, or none".to_owned() };
+            faults.in_file(file, Some(1), &self.table, "", mistake);
+            return None;
+        }
+        let mut placed = Vec::with_capacity(rows.count);
+        for row in 0..rows.count {
+            let material = by_label[if rows.label.is_empty() { 0 } else { rows.label[row] as usize }]?;
+            let mut wrong = |key: &str, found: String, expected: &str| {
+                let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
+                faults.in_file(file, rows.line(row), &self.table, key, mistake);
+            };
+            let radius = column("radius").map_or(0.0, |radius| radius[row]);
+            let density = column("density").map(|density| density[row]);
+            for (key, value) in [("radius", radius), ("density", density.unwrap_or(1.0))] {
+                if value <= 0.0 {
+                    wrong(key, format!("{value:?}"), "a number above 0");
+                    return None;
+                }
+            }
+            if column("id").is_some() {
+                wrong("id", "a column id".to_owned(), "none: spheres of clumps get their numbers by themselves");
+                return None;
+            }
+            let mut orientation = None;
+            if let [Some(w), Some(x), Some(y), Some(z)] = turned {
+                let Some(unit) = unit([w[row], x[row], y[row], z[row]]) else {
+                    wrong("qw", "a quaternion of zeros".to_owned(), "a quaternion qw, qx, qy, qz that is not zero");
+                    return None;
+                };
+                orientation = Some(OrientationKey::Turned(unit));
+            }
+            let mut like = self.particle(material, three(["x", "y", "z"], row)?, radius);
+            like.velocity = three(["vx", "vy", "vz"], row).unwrap_or(like.velocity);
+            like.angular_velocity = three(["wx", "wy", "wz"], row).unwrap_or(like.angular_velocity);
+            let mut one = self.like(like, Size::Bounding(radius), orientation);
+            one.density = density.or(one.density);
+            placed.push(one);
+        }
+        let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        Some((placed, Place::File(file.to_owned(), rows.lines), columns))
+    }
+}
+
+/// A turn of which all are alike likely (Shoemake 1992).
+fn any_turn(random: &mut ChaCha8Rng) -> Quaternion {
+    let [share, one, other] = [0; 3].map(|_| uniform(random));
+    let (near, far) = ((1.0 - share).sqrt(), share.sqrt());
+    let vector = Vector::new(near * libm::sin(TAU * one), near * libm::cos(TAU * one), far * libm::sin(TAU * other));
+    Quaternion { scalar: far * libm::cos(TAU * other), vector }.normalised()
+}
+
+/// Reads the shapes of clumps.
+pub(super) fn shapes(written: &Named<ClumpKeys>, faults: &mut Faults) -> Vec<ClumpShape> {
+    let mut shapes = Vec::new();
+    for (name, keys) in written {
+        let table = format!("clump.{name}");
+        shapes.extend(keys.shape(name, &mut |key, mistake| faults.add(&table, key, mistake)));
+    }
+    shapes
+}
