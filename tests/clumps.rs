@@ -123,6 +123,7 @@ fn falling_pair(angle: f64, speed: f64) -> Simulation {
         r#"
 [run]
 step = 2.0e-8
+central_derivatives = true
 {}
 [clump.pair]
 spheres = [{{ position = [-0.01, 0.0, 0.0], radius = 0.01 }}, {{ position = [0.01, 0.0, 0.0], radius = 0.01 }}]
