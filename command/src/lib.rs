@@ -15,6 +15,7 @@ use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, RunOrder, SettleOrder, SettleProgress, SettleStart, Start};
 use cograin::scene::{Models, PackingProgress, Scene, Setting, Source};
+use cograin::statics::Factorise;
 use cograin_verify as verify;
 use progress::Progress;
 use rayon::prelude::*;
@@ -27,6 +28,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
+
+/// What finds the sparse factors of a network.
+const FACTORISE: Option<Factorise> = Some(cograin_sparse::factorise);
 
 /// Particles with bonded and cohesive contacts, run alone or packaged as FMI 2.0 co-simulation units.
 ///
@@ -314,7 +318,9 @@ fn read_to_run(models: &Models, arguments: &ComputeArguments, quiet: bool) -> Re
 fn check(models: &Models, arguments: &CheckArguments, quiet: bool) -> Result<(), Ending> {
     let (scene, source) = read_to_run(models, &arguments.scene, quiet)?;
     if arguments.stiffness {
-        return say(report::stiffness(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?);
+        return say(
+            report::stiffness(&scene, &source.name, arguments.from.as_deref(), FACTORISE).map_err(Ending::refused)?
+        );
     }
     let report = report::check(&scene, &source.name, arguments.from.as_deref()).map_err(Ending::refused)?;
     if arguments.json { say_as_it_is(report.to_json().as_bytes()) } else { say(report) }
@@ -374,6 +380,7 @@ fn settle(models: &Models, arguments: &SettleArguments, quiet: bool) -> Result<(
         },
         checkpoint: &arguments.output,
         most_steps: arguments.steps,
+        factorise: FACTORISE,
         stop: &stop,
     };
     let mut shown = Progress::new(quiet, "{spinner} {msg}  {elapsed}");

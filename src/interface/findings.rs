@@ -24,7 +24,9 @@ pub struct Findings {
     /// Largest overlap over the smaller radius.
     largest_overlap: OnceCell<f64>,
     /// Static stiffness of the boundaries along x, y, z, where it can be found \[N/m\].
-    stiffness: OnceCell<Vec<Option<[f64; 3]>>>,
+    stiffness: OnceCell<Vec<[f64; 3]>>,
+    /// Tangent of the cell, where it can be found \[Pa\].
+    cell_stiffness: OnceCell<Option<[[f64; 6]; 6]>>,
     /// The particles in each region.
     contents: OnceCell<Vec<Content>>,
     /// What contacts and bonds carry in each region.
@@ -68,7 +70,13 @@ impl Findings {
     /// Static stiffness of a boundary along x, y, z, if it can be found \[N/m\].
     pub(super) fn stiffness(&self, simulation: &Simulation, boundary: BoundaryIndex) -> Option<[f64; 3]> {
         let all = self.stiffness.get_or_init(|| stiffnesses(simulation));
-        all.get(boundary.index()).copied().flatten()
+        all.get(boundary.index()).copied()
+    }
+
+    /// How a component of the stress of the cell follows one of the strain, if it can be found \[Pa\].
+    pub(super) fn cell_stiffness(&self, simulation: &Simulation, [row, column]: [usize; 2]) -> Option<f64> {
+        let found = || statics::stiffness(simulation, &[], None).ok()?.cell.map(|cell| cell.matrix);
+        self.cell_stiffness.get_or_init(found).map(|matrix| matrix[row][column])
     }
 
     /// The particles in a region.
@@ -111,9 +119,9 @@ impl Findings {
 }
 
 /// Static stiffness of all boundaries along x, y, z, each for itself; nothing where the network comes to no rest \[N/m\].
-fn stiffnesses(simulation: &Simulation) -> Vec<Option<[f64; 3]>> {
+fn stiffnesses(simulation: &Simulation) -> Vec<[f64; 3]> {
     let all: Vec<BoundaryIndex> = (0..simulation.scene().boundaries.len() as u32).map(BoundaryIndex).collect();
-    let Ok(found) = statics::stiffness(simulation, &all) else { return Vec::new() };
+    let Ok(found) = statics::stiffness(simulation, &all, None) else { return Vec::new() };
     let along = |matrix: &[[f64; 3]; 3]| std::array::from_fn(|axis| matrix[axis][axis]);
-    found.boundaries.iter().map(|boundary| Some(along(&boundary.matrix))).collect()
+    found.boundaries.iter().map(|boundary| along(&boundary.matrix)).collect()
 }

@@ -68,6 +68,11 @@ impl Cell {
     pub fn moves(&self) -> bool {
         self.motion.iter().any(|motion| *motion != CellMotion::Fixed)
     }
+
+    /// Whether the edges repeat that a component of the strain changes.
+    pub fn repeats(&self, component: usize) -> bool {
+        STRAIN_PLACES[component].iter().all(|&edge| self.lattice.periodic[edge])
+    }
 }
 
 /// An edge, by the axis that it is along without lean.
@@ -211,8 +216,8 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
         let narrow = format!("faces {:?} m apart along {}", heights[edge], AXES[edge]);
         found.push(at_cell("edges", narrow, &format!("at least the largest radius, {largest:?} m")));
     }
-    for (component, [row, column]) in STRAIN_PLACES.into_iter().enumerate() {
-        if cell.motion[component] != CellMotion::Fixed && !(periodic[row] && periodic[column]) {
+    for component in 0..6 {
+        if cell.motion[component] != CellMotion::Fixed && !cell.repeats(component) {
             let name = STRAINS[component];
             found.push(at_cell(
                 "motion",

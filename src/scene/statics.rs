@@ -4,8 +4,16 @@ use super::SceneDraft;
 use crate::laws::bond::damping::DampingChoice;
 
 impl SceneDraft {
-    /// What depends on speed or time, however slow, or moves by itself, if anything; and what was expected.
+    /// What has no static stiffness, or moves by itself, if anything; and what was expected.
     pub fn without_statics(&self) -> Option<(String, &'static str)> {
+        let moves = self.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free()));
+        self.without_rest().or_else(|| {
+            Some((format!("[boundary.{}] moved by forces", moves?.name), "a boundary that is led or fixed"))
+        })
+    }
+
+    /// What depends on speed or time, however slow, if anything; and what was expected.
+    pub(crate) fn without_rest(&self) -> Option<(String, &'static str)> {
         if let Some(law) = self.contacts.iter().find(|law| law.choice.rolling.name() == "cdt") {
             return Some((format!("[contact.{}] rolling.cdt", law.name), "another rolling model, or none"));
         }
@@ -21,15 +29,9 @@ impl SceneDraft {
                 return Some((what, "damping.viscous, or none"));
             }
         }
-        if self.cell.is_some() {
-            return Some(("[cell]".to_owned(), "a scene without a periodic cell"));
-        }
-        if let Some(clump) = self.clumps.first() {
-            let name = &self.clump_shapes[clump.shape as usize].name;
-            return Some((format!("[clump.{name}]"), "a scene without clumps"));
-        }
-        let moves = self.boundaries.iter().find(|it| it.axes.iter().any(|axis| axis.is_free()))?;
-        Some((format!("[boundary.{}] moved by forces", moves.name), "a boundary that is led or fixed"))
+        let clump = self.clumps.first()?;
+        let name = &self.clump_shapes[clump.shape as usize].name;
+        Some((format!("[clump.{name}]"), "a scene without clumps"))
     }
 
     /// What speaks against the stiffness that is asked for as an output: what was found, and what was expected.

@@ -157,3 +157,49 @@ fn what_damping_without_gravity_holds_off_its_rest_is_told_with_the_reason() {
     let said = complaint(&cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap(), 1);
     assert!(said.contains("comes no nearer") && said.contains("gravity_damped"), "{said}");
 }
+
+/// A row of bonded spheres that is held at one end, under gravity.
+fn bonded(place: &Place) -> std::path::PathBuf {
+    let scene = place.at("scene.toml");
+    let text = "gravity = [0.0, 0.0, -9.81]\n[run]\nend = 1e-3\nstep = 1e-6\n[material.ice]\ndensity = 900.0\n\
+         [particles.beam]\nmaterial = \"ice\"\nlattice = { kind = \"simple_cubic\", radius = 0.01, counts = [8, 1, 1] }\n\
+         [bond.neck]\nbetween = [\"beam\", \"beam\"]\ncreate_distance = 0.0201\nnormal_stiffness = 1e10\ntangential_stiffness = 4e9\n\
+         [boundary.clamp]\nparticles = { ids = [1] }\n[output]\nhistory_interval = 1e-3\n";
+    fs::write(&scene, text).unwrap();
+    scene
+}
+
+#[test]
+fn bonds_are_settled_by_newtons_method_and_stay_at_rest() {
+    let place = Place::new("settle_bonds");
+    let (scene, state, out) = (bonded(&place), place.at("settled.cograin"), place.at("out"));
+    let output = cograin(&[&"settle", &scene, &"-o", &state]).output().unwrap();
+    complaint(&output, 0);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(text.contains("of Newton's method") && text.contains("kinetic energy 0.000e0 J"), "{text}");
+    complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--resume", &state]).output().unwrap(), 0);
+    let mut history = csv::Reader::from_path(out.join("history.csv")).unwrap();
+    let force = history.headers().unwrap().iter().position(|name| name == "clamp.force.z").unwrap();
+    let weight = 7.0 * 4.0 / 3.0 * std::f64::consts::PI * 1e-6 * 900.0 * 9.81;
+    for row in history.records() {
+        let found: f64 = row.unwrap()[force].parse().unwrap();
+        // The tolerance of settling, 1e-4 of the mean bond force.
+        assert!((found / -weight - 1.0).abs() < 1e-3, "{found} N, the weight is {weight} N");
+    }
+}
+
+#[test]
+fn what_newtons_method_cannot_settle_is_settled_by_time_steps_and_said() {
+    let place = Place::new("settle_bonds_by_steps");
+    let scene = bonded(&place);
+    let text =
+        fs::read_to_string(&scene).unwrap().replace("[bond.neck]", "[bond.neck]\nformulation = \"engine_exact\"");
+    fs::write(&scene, text).unwrap();
+    let output = cograin(&[&"settle", &scene, &"-o", &place.at("settled.cograin")]).output().unwrap();
+    complaint(&output, 0);
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        text.contains("by time steps, not by Newton's method: [bond.neck] formulation engine_exact is beyond it"),
+        "{text}"
+    );
+}

@@ -141,16 +141,27 @@ impl Cell {
         });
         let change = Change::between(&cell.strain, &after);
         if !change.is_none() {
-            for row in &mut state.particles.position {
-                let from = [0, 1, 2].map(|axis| row[axis] - cell.origin[axis]);
-                let to = times(&change.forward, from);
-                (0..3).for_each(|axis| row[axis] = cell.origin[axis] + to[axis]);
-            }
-            cell.strain = after;
-            cell.edges = deformation::edges(&cell.reference, &after);
+            strain_to(&mut cell, state, after, &change);
         }
         state.cell = Some(cell);
         !change.is_none()
+    }
+
+    /// Strains the cell by so much in one component, in so long \[s\], particles with it.
+    pub(crate) fn displace(&self, state: &mut State, component: usize, (amount, time): (f64, f64)) {
+        let Some(mut cell) = state.cell.take() else { return };
+        let mut after = cell.strain;
+        after[component] += amount;
+        let change = Change::between(&cell.strain, &after);
+        strain_to(&mut cell, state, after, &change);
+        cell.gradient = change.gradient(&after, time);
+        state.cell = Some(cell);
+    }
+
+    /// Puts images where their particles are.
+    pub(crate) fn place_images(&self, state: &mut State) {
+        let State { cell: Some(cell), particles, .. } = state else { return };
+        images::place(&self.images.lattice(cell), cell, particles);
     }
 
     /// The strains at the end of the present time step.
@@ -286,6 +297,17 @@ impl Cell {
         let norm = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         near * norm(cell.gradient.as_flattened()).max(norm(&cell.rate))
     }
+}
+
+/// Strains a cell at rest, particles and all.
+fn strain_to(cell: &mut CellState, state: &mut State, after: Strains, change: &Change) {
+    for row in &mut state.particles.position {
+        let from = [0, 1, 2].map(|axis| row[axis] - cell.origin[axis]);
+        let to = times(&change.forward, from);
+        (0..3).for_each(|axis| row[axis] = cell.origin[axis] + to[axis]);
+    }
+    cell.strain = after;
+    cell.edges = deformation::edges(&cell.reference, &after);
 }
 
 /// Books the work of a matrix of sums, by a factor and what belongs to each strain. Returns it \[J\].

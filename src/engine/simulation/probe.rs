@@ -5,10 +5,10 @@ use crate::base::geometry::{Quaternion, rotation};
 use crate::base::number::Vector;
 use crate::base::quantity::BoundaryIndex;
 use crate::base::threads::Context;
-use crate::engine::boundaries::rigid_body;
+use crate::engine::boundaries::rigid_body::{self, RigidBody};
 use crate::engine::contacts::{Link, SearchLimits};
 use crate::engine::integration;
-use crate::engine::state::State;
+use crate::engine::state::{BoundaryState, Orientation, State};
 use std::sync::Arc;
 
 /// Time that a displacement takes, over the stable time step: so long that no dashpot feels it.
@@ -19,9 +19,9 @@ const SLOWLY: f64 = (1_u64 << 40) as f64;
 pub struct Displacement {
     /// Which body.
     pub body: ProbeBody,
-    /// Along x, y, z (0 to 2), about them (3 to 5); boundaries are only shifted.
+    /// Along x, y, z (0 to 2), about them (3 to 5). Of the cell: the component of its strain.
     pub axis: usize,
-    /// How far \[m, rad\].
+    /// How far \[m, rad, 1\].
     pub amount: f64,
 }
 
@@ -32,6 +32,15 @@ pub enum ProbeBody {
     Particle(u32),
     /// A boundary, with the particles of a group.
     Boundary(BoundaryIndex),
+    /// The periodic cell, with the particles in it.
+    Cell,
+}
+
+impl ProbeBody {
+    /// The slot of a particle.
+    pub(crate) fn slot(self) -> Option<u32> {
+        if let Self::Particle(slot) = self { Some(slot) } else { None }
+    }
 }
 
 /// Two bodies that act on each other: slots of particles; `None` for anything else.
@@ -52,17 +61,12 @@ impl Probe {
     pub fn of(simulation: &Simulation) -> Self {
         let mut rest = simulation.state.clone();
         rest.ledger = None;
-        for rows in [&mut rest.particles.velocity, &mut rest.particles.angular_velocity] {
-            rows.iter_mut().for_each(|row| row[..3].fill(0.0));
-        }
-        for boundary in &mut rest.boundaries {
-            (boundary.velocity, boundary.angular_velocity) = ([0.0; 3], [0.0; 3]);
-            boundary.before = boundary.stand();
-        }
-        rest.nodes.iter_mut().for_each(|nodes| nodes.velocity.fill([0.0; 4]));
+        stop(&mut rest);
         let stable = simulation.state.clock.stable;
         let slowly = SLOWLY * if stable > 0.0 && stable.is_finite() { stable } else { 1.0 };
-        Self { simulation: Simulation::with(Arc::clone(&simulation.scene), rest.clone()), rest, slowly }
+        let mut simulation = Simulation::with(Arc::clone(&simulation.scene), rest.clone());
+        simulation.fields.without_damping();
+        Self { simulation, rest, slowly }
     }
 
     /// Leaves out some particles (slots) from here on.
@@ -86,6 +90,11 @@ impl Probe {
         self.simulation.turning
     }
 
+    /// Boundaries that turn or that forces move.
+    pub(crate) fn bodies(&self) -> &[Option<RigidBody>] {
+        &self.simulation.bodies
+    }
+
     /// Which bodies act on each other.
     pub(crate) fn neighbours(&self) -> Vec<Neighbours> {
         let mut all = Vec::new();
@@ -105,10 +114,17 @@ impl Probe {
                 ProbeBody::Particle(slot) => displace(&mut simulation.state, slot as usize, axis, (amount, slowly)),
                 ProbeBody::Boundary(boundary) => {
                     let boundary = &mut simulation.state.boundaries[boundary.index()];
-                    boundary.displacement[axis] += amount;
-                    boundary.velocity[axis] = amount / slowly;
+                    displace_boundary(boundary, axis, (amount, slowly));
+                }
+                ProbeBody::Cell => {
+                    if let Some(cell) = &simulation.cell {
+                        cell.displace(&mut simulation.state, axis, (amount, slowly));
+                    }
                 }
             }
+        }
+        if let Some(cell) = &simulation.cell {
+            cell.place_images(&mut simulation.state);
         }
         let Simulation { scene, bodies, state, .. } = &mut *simulation;
         rigid_body::place_groups(scene, bodies, state);
@@ -118,6 +134,64 @@ impl Probe {
         simulation.evaluate(false, &context)?;
         Ok(&simulation.state)
     }
+
+    /// Stress of the periodic cell as it was displaced last; zeros without one \[Pa\].
+    pub(crate) fn stress(&self) -> [f64; 6] {
+        self.simulation.cell_stress()
+    }
+
+    /// The simulation at rest, with all forces but those of global damping.
+    pub(crate) fn loaded(&mut self) -> Result<&Simulation, RunError> {
+        let Self { simulation, rest, slowly } = self;
+        simulation.state.clone_from(rest);
+        simulation.clear_boundary_loads();
+        integration::clear_loads(&mut simulation.state.particles);
+        let context = Context { step: *slowly, ..simulation.standing() };
+        simulation.evaluate(true, &context)?;
+        Ok(simulation)
+    }
+
+    /// Lets everything rest where these displacements lead.
+    pub(crate) fn follow(&mut self, displacements: impl Iterator<Item = Displacement>) -> Result<(), RunError> {
+        self.displaced(displacements)?;
+        let Self { simulation, rest, .. } = self;
+        stop(&mut simulation.state);
+        simulation.rebuild(&simulation.standing());
+        rest.clone_from(&simulation.state);
+        Ok(())
+    }
+}
+
+/// Takes all motion out of a state.
+fn stop(state: &mut State) {
+    for rows in [&mut state.particles.velocity, &mut state.particles.angular_velocity] {
+        rows.iter_mut().for_each(|row| row[..3].fill(0.0));
+    }
+    for boundary in &mut state.boundaries {
+        (boundary.velocity, boundary.angular_velocity) = ([0.0; 3], [0.0; 3]);
+        boundary.before = boundary.stand();
+        boundary.inertial.angular_momentum = [0.0; 3];
+    }
+    state.nodes.iter_mut().for_each(|nodes| nodes.velocity.fill([0.0; 4]));
+    if let Some(cell) = &mut state.cell {
+        cell.gradient = Default::default();
+    }
+}
+
+/// Displaces a boundary by so much \[m, rad\] in so long \[s\].
+fn displace_boundary(moved: &mut BoundaryState, axis: usize, (amount, slowly): (f64, f64)) {
+    if axis < 3 {
+        moved.displacement[axis] += amount;
+        moved.velocity[axis] = amount / slowly;
+        return;
+    }
+    let mut turn = Vector::zero().to_array();
+    turn[axis - 3] = amount;
+    let turn = Vector::from(turn);
+    let orientation = rotation::orientation(turn) * Quaternion::from(moved.orientation);
+    moved.orientation = Orientation::from(orientation);
+    moved.rotation = rotation::vector_near(orientation, Vector::from(moved.rotation) + turn).to_array();
+    moved.angular_velocity[axis - 3] = amount / slowly;
 }
 
 /// Displaces a particle by so much \[m, rad\] in so long \[s\].

@@ -2,7 +2,7 @@
 
 use super::network::Network;
 use crate::engine::run_error::RunError;
-use crate::engine::simulation::{Displacement, Probe};
+use crate::engine::simulation::{Displacement, Probe, ProbeBody};
 use crate::engine::state::State;
 use nalgebra::Matrix6;
 
@@ -23,12 +23,24 @@ pub(super) struct Difference {
     pub(super) loads: Vec<f64>,
     /// Force on each boundary \[N/m\].
     pub(super) boundaries: Vec<[f64; 3]>,
+    /// Stress of the cell, where there is one \[Pa/m\].
+    pub(super) stress: [f64; 6],
 }
 
 /// The loads on the bodies, torques over radii \[N\].
-fn loads<'a>(state: &'a State, network: &'a Network) -> impl Iterator<Item = f64> + 'a {
-    network.slots.iter().zip(&network.radii).flat_map(move |(&slot, radius)| {
-        let (force, torque) = (state.particles.force[slot as usize], state.particles.torque[slot as usize]);
+pub(super) fn loads<'a>(state: &'a State, network: &'a Network) -> impl Iterator<Item = f64> + 'a {
+    network.bodies.iter().zip(&network.radii).flat_map(move |(body, radius)| {
+        let (force, torque) = match *body {
+            ProbeBody::Boundary(boundary) => {
+                let inertial = &state.boundaries[boundary.index()].inertial;
+                (inertial.load, inertial.couple)
+            }
+            ProbeBody::Particle(slot) => {
+                let rows = [&state.particles.force, &state.particles.torque].map(|rows| rows[slot as usize]);
+                (rows[0][..3].try_into().unwrap_or_default(), rows[1][..3].try_into().unwrap_or_default())
+            }
+            ProbeBody::Cell => ([0.0; 3], [0.0; 3]),
+        };
         let all = [force[0], force[1], force[2], torque[0] / radius, torque[1] / radius, torque[2] / radius];
         all.into_iter().take(network.each)
     })
@@ -45,7 +57,9 @@ pub(super) fn difference(
     let mut found = Difference {
         loads: loads(there, network).collect(),
         boundaries: there.boundaries.iter().map(|boundary| boundary.force).collect(),
+        stress: [0.0; 6],
     };
+    let stress = probe.stress();
     let back = probe.displaced(displacements(-way).into_iter())?;
     for (there, back) in found.loads.iter_mut().zip(loads(back, network)) {
         *there = (*there - back) / (2.0 * way);
@@ -54,6 +68,9 @@ pub(super) fn difference(
         for (there, back) in there.iter_mut().zip(back.force) {
             *there = (*there - back) / (2.0 * way);
         }
+    }
+    for ((found, there), back) in found.stress.iter_mut().zip(stress).zip(probe.stress()) {
+        *found = (there - back) / (2.0 * way);
     }
     Ok(found)
 }
@@ -102,6 +119,17 @@ impl Columns {
             self.block(body as u32, body as u32).map_or(0.0, |own| own[(0, 0)] + own[(1, 1)] + own[(2, 2)])
         };
         (0..self.blocks.len()).map(own).sum::<f64>() / (3 * self.blocks.len()).max(1) as f64
+    }
+
+    /// Each body that feels the motion of one, with how it does, and how that one feels its motion.
+    pub(super) fn each_pair(&self, see: &mut dyn FnMut([u32; 2], &Block, &Block)) {
+        for (moving, list) in self.blocks.iter().enumerate() {
+            for (body, block) in list {
+                if let Some(mirrored) = self.block(moving as u32, *body) {
+                    see([*body, moving as u32], block, mirrored);
+                }
+            }
+        }
     }
 
     /// How one body feels the motion of another.

@@ -1,14 +1,16 @@
 //! Which bodies there are, which act on each other, and which may be displaced at once.
 
+use crate::base::quantity::BoundaryIndex;
 use crate::engine::simulation::{Displacement, Probe, ProbeBody};
+use crate::engine::state::State;
 
 /// Instead of a place: a particle that does not move by the forces on it, or that nothing holds.
 const NONE: u32 = u32::MAX;
 
 /// The bodies that are free to move.
 pub(super) struct Network {
-    /// Slots of the particles that are solved for.
-    pub(super) slots: Vec<u32>,
+    /// Particles, and groups that forces move.
+    pub(super) bodies: Vec<ProbeBody>,
     /// Their radii, which scale rotations \[m\].
     pub(super) radii: Vec<f64>,
     /// How many freedoms each has: 3, or 6 where anything turns them.
@@ -19,34 +21,84 @@ pub(super) struct Network {
     pub(super) touches: Vec<u32>,
     /// Sets of bodies of which no two act on a common one.
     pub(super) sets: Vec<Vec<u32>>,
+    /// Freedoms of each that stay: of groups those that forces do not move; along the axes that of one body of each part that holds
+    /// itself across the faces of a cell, and may stand anywhere.
+    pub(super) pinned: Vec<[bool; 6]>,
     /// Particles that nothing holds: numbers in the scene's order.
     pub(super) rattlers: Vec<u32>,
-    /// Number of each of the bodies in the scene's order.
+    /// Number of each of the bodies in the scene's order, of groups that of their first particle.
     pub(super) ids: Vec<u32>,
+    /// The largest number among those by whose difference forces come about \[m\].
+    pub(super) reach: f64,
 }
+
+/// A particle and by how many edges of the cell it is displaced.
+type Place = (usize, [i64; 3]);
 
 impl Network {
     /// That of a simulation.
     pub(super) fn of(probe: &Probe) -> Self {
-        let (particles, neighbours) = (&probe.rest().particles, probe.neighbours());
+        let (state, neighbours) = (probe.rest(), probe.neighbours());
+        let particles = &state.particles;
+        let places = places(state);
         let mut touches = vec![0_u32; particles.len()];
-        for &(first, second) in &neighbours {
-            touches[first as usize] += 1;
-            if let Some(second) = second {
-                touches[second as usize] += 1;
-            }
+        for slot in neighbours.iter().flat_map(|(first, second)| [Some(*first), *second]).flatten() {
+            touches[places[slot as usize].0] += 1;
         }
-        let free = || (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
-        let slots: Vec<u32> = free().filter(|&slot| touches[slot] > 0).map(|slot| slot as u32).collect();
-        let mut rattlers: Vec<u32> = free().filter(|&slot| touches[slot] == 0).map(|slot| particles.id[slot]).collect();
+        let links: Vec<(Place, Option<Place>)> = neighbours
+            .iter()
+            .map(|(first, second)| (places[*first as usize], second.map(|second| places[second as usize])))
+            .collect();
+        // A group that forces move stands in the place of its first particle.
+        let mut stands_for: Vec<usize> = (0..particles.len()).collect();
+        let mut group_at = vec![None; particles.len()];
+        for (index, body) in probe.bodies().iter().enumerate() {
+            let Some(body) = body.as_ref().filter(|body| body.is_free() && !body.is_surface()) else { continue };
+            let slots = || body.members.iter().map(|&member| particles.slot[member as usize] as usize);
+            let first = slots().next().unwrap_or_default();
+            slots().for_each(|slot| stands_for[slot] = first);
+            group_at[first] = Some((BoundaryIndex(index as u32), body));
+        }
+        let of_body = |(slot, shift): Place| (stands_for[slot], shift);
+        let links: Vec<(Place, Option<Place>)> =
+            links.into_iter().map(|(first, second)| (of_body(first), second.map(of_body))).collect();
+        let moves = |slot: usize| particles.owner[slot] == 0 || group_at[slot].is_some();
+        let stays = |slot: usize| {
+            group_at[slot].is_some_and(|(_, body)| body.freedoms() != [true; 6] || body.springs() != [0.0; 6])
+        };
+        let Held { held, floating } = held((0..particles.len()).map(stays).collect(), &moves, &links);
+        let slots: Vec<usize> =
+            (0..particles.len()).filter(|&slot| moves(slot) && (held[slot] || group_at[slot].is_some())).collect();
+        let mut rattlers: Vec<u32> = (0..particles.len())
+            .filter(|&slot| particles.owner[slot] == 0 && !held[slot])
+            .map(|slot| particles.id[slot])
+            .collect();
         rattlers.sort_unstable();
         let mut place = vec![NONE; particles.len()];
         for (body, &slot) in slots.iter().enumerate() {
-            place[slot as usize] = body as u32;
+            place[slot] = body as u32;
+        }
+        let spins = group_at.iter().flatten().any(|(_, body)| body.spins());
+        let (mut bodies, mut radii, mut pinned) = (Vec::new(), Vec::new(), Vec::new());
+        for &slot in &slots {
+            let radius = particles.position[slot][3];
+            match group_at[slot] {
+                Some((boundary, body)) => {
+                    bodies.push(ProbeBody::Boundary(boundary));
+                    radii.push(radius.max(body.farthest));
+                    pinned.push(body.freedoms().map(|is_free| !is_free));
+                }
+                None => {
+                    let (shifts, turns) = (!floating.contains(&slot), probe.turns());
+                    bodies.push(ProbeBody::Particle(slot as u32));
+                    radii.push(radius);
+                    pinned.push([!shifts, !shifts, !shifts, !turns, !turns, !turns]);
+                }
+            }
         }
         let mut near: Vec<Vec<u32>> = (0..slots.len() as u32).map(|body| vec![body]).collect();
-        for (first, second) in neighbours {
-            let (one, other) = (place[first as usize], second.map_or(NONE, |second| place[second as usize]));
+        for ((first, _), second) in &links {
+            let (one, other) = (place[*first], second.map_or(NONE, |(second, _)| place[second]));
             if one != NONE && other != NONE {
                 near[one as usize].push(other);
                 near[other as usize].push(one);
@@ -56,22 +108,32 @@ impl Network {
             list.sort_unstable();
             list.dedup();
         }
+        // Places of particles are compared with each other, which costs no digits, or with those of surfaces and faces.
+        let alone = state.cell.is_none()
+            && group_at.iter().all(Option::is_none)
+            && links.iter().all(|(_, second)| second.is_some());
+        let reach = match alone {
+            true => 4.0 * radii.iter().copied().fold(0.0, f64::max),
+            false => particles.position.iter().flat_map(|row| &row[..3]).fold(0.0, |most: f64, x| most.max(x.abs())),
+        };
         Self {
-            radii: slots.iter().map(|&slot| particles.position[slot as usize][3]).collect(),
-            each: if probe.turns() { 6 } else { 3 },
+            bodies,
+            radii,
+            each: if probe.turns() || spins { 6 } else { 3 },
             sets: apart(&near),
-            touches: slots.iter().map(|&slot| touches[slot as usize]).collect(),
-            ids: slots.iter().map(|&slot| particles.id[slot as usize]).collect(),
-            slots,
+            touches: slots.iter().map(|&slot| if group_at[slot].is_some() { NONE } else { touches[slot] }).collect(),
+            ids: slots.iter().map(|&slot| particles.id[slot]).collect(),
+            pinned,
             near,
             rattlers,
+            reach,
         }
     }
 
     /// A freedom of a body, displaced by this much \[m\]; a rotation at the body's radius.
     pub(super) fn displacement(&self, body: u32, axis: usize, amount: f64) -> Displacement {
         let amount = if axis < 3 { amount } else { amount / self.radii[body as usize] };
-        Displacement { body: ProbeBody::Particle(self.slots[body as usize]), axis, amount }
+        Displacement { body: self.bodies[body as usize], axis, amount }
     }
 
     /// All freedoms, displaced by these shares of an amount \[m\].
@@ -85,6 +147,75 @@ impl Network {
             self.displacement((freedom / self.each) as u32, freedom % self.each, share * amount)
         })
     }
+}
+
+/// Whose image each row is, and by how many edges it is displaced from it.
+fn places(state: &State) -> Vec<Place> {
+    let mut places: Vec<Place> = (0..state.particles.len()).map(|slot| (slot, [0; 3])).collect();
+    if let Some(cell) = &state.cell {
+        for ((&image, &original), &shift) in cell.images.iter().zip(&cell.originals).zip(&cell.displaced) {
+            places[image as usize] = (original as usize, shift);
+        }
+    }
+    places
+}
+
+/// What is held.
+struct Held {
+    /// Whether each row is.
+    held: Vec<bool>,
+    /// One body of each part that only a way through the cell holds.
+    floating: Vec<usize>,
+}
+
+/// Which bodies are held: by links, one after the other, to something that is `grounded` or does not move by forces, or by a way through
+/// the cell back to themselves.
+fn held(mut grounded: Vec<bool>, moves: &dyn Fn(usize) -> bool, links: &[(Place, Option<Place>)]) -> Held {
+    let count = grounded.len();
+    let mut held = vec![false; count];
+    let mut ways: Vec<Vec<Place>> = vec![Vec::new(); count];
+    for &((first, away), second) in links {
+        match second {
+            Some((second, further)) if moves(first) && moves(second) => {
+                let [there, back] = [1, -1].map(|sign| [0, 1, 2].map(|edge| sign * (further[edge] - away[edge])));
+                ways[first].push((second, there));
+                ways[second].push((first, back));
+            }
+            _ => {
+                for (slot, _) in [Some((first, away)), second].into_iter().flatten() {
+                    grounded[slot] = true;
+                }
+            }
+        }
+    }
+    let (mut stands, mut floating) = (vec![None; count], Vec::new());
+    for begin in (0..count).filter(|&slot| moves(slot)) {
+        if stands[begin].is_some() {
+            continue;
+        }
+        stands[begin] = Some([0_i64; 3]);
+        let (mut part, mut next, mut winds, mut is_grounded) = (vec![begin], 0, false, false);
+        while let Some(&slot) = part.get(next) {
+            next += 1;
+            is_grounded |= grounded[slot];
+            let from = stands[slot].unwrap_or_default();
+            for &(other, step) in &ways[slot] {
+                let to = [0, 1, 2].map(|edge| from[edge] + step[edge]);
+                match stands[other] {
+                    None => {
+                        stands[other] = Some(to);
+                        part.push(other);
+                    }
+                    Some(place) => winds |= place != to,
+                }
+            }
+        }
+        part.iter().for_each(|&slot| held[slot] = is_grounded || winds);
+        if winds && !is_grounded {
+            floating.push(begin);
+        }
+    }
+    Held { held, floating }
 }
 
 /// Sets of bodies of which no two act on a common one, found one after the other.

@@ -35,8 +35,13 @@ const OF_CELL: Row = Row { exists: |scene, _| scene.cell.is_some(), ..OUTPUT };
 /// An output of each component.
 const OF_COMPONENT: Row = Row { each: Each::Strain, ..OF_CELL };
 
+/// Component of the stress, and that of the strain.
+fn tangent(at: At) -> [usize; 2] {
+    [at.axis() / 6, at.axis() % 6]
+}
+
 /// Variables of the periodic cell, inputs first.
-pub(super) static OF_CELLS: [Row; 12] = [
+pub(super) static OF_CELLS: [Row; 13] = [
     Row {
         name: "cell.strain",
         description: "strain {axis} of the cell since the scene's time 0, to be reached at the end of the communication step at a \
@@ -132,6 +137,20 @@ pub(super) static OF_CELLS: [Row; 12] = [
         read: |now, _| {
             Value::Real(Some(now.simulation.unbalanced_force()).filter(|ratio| ratio.is_finite()).unwrap_or(0.0))
         },
+        ..OF_CELL
+    },
+    Row {
+        name: "cell.stiffness",
+        each: Each::Tangent,
+        description: "condensed static tangent of the cell: change of its Cauchy stress for each unit of strain ({axis}: the component of \
+                      the stress, that of the strain), when everything has come to rest again",
+        quantity: Quantity::Pressure,
+        follows_inputs_at_start: false,
+        exists: |scene, at| {
+            let repeats = |component| scene.cell.as_ref().is_some_and(|cell| cell.repeats(component));
+            scene.output.stiffness && tangent(at).into_iter().all(repeats)
+        },
+        read: |now, at| Value::Real(now.findings.cell_stiffness(now.simulation, tangent(at)).unwrap_or(f64::NAN)),
         ..OF_CELL
     },
 ];

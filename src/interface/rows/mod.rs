@@ -99,7 +99,7 @@ impl Source {
     fn variable(self, scene: &Scene) -> Variable {
         let Self { row, at } = self;
         let owner = match row.each {
-            Each::Scene | Each::Strain | Each::Shear => "",
+            Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
             Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
             Each::Insertion => &scene.insertions[at.place()].name,

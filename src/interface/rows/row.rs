@@ -17,6 +17,17 @@ pub(in crate::interface) const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", 
 /// Row and column of each.
 pub(in crate::interface) const COMPONENT_PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]];
 
+/// Names of the components of a tangent in variables: of the stress, of the strain.
+#[rustfmt::skip]
+const TANGENTS: [&str; 36] = [
+    "xx.xx", "xx.yy", "xx.zz", "xx.xy", "xx.xz", "xx.yz",
+    "yy.xx", "yy.yy", "yy.zz", "yy.xy", "yy.xz", "yy.yz",
+    "zz.xx", "zz.yy", "zz.zz", "zz.xy", "zz.xz", "zz.yz",
+    "xy.xx", "xy.yy", "xy.zz", "xy.xy", "xy.xz", "xy.yz",
+    "xz.xx", "xz.yy", "xz.zz", "xz.xy", "xz.xz", "xz.yz",
+    "yz.xx", "yz.yy", "yz.zz", "yz.xy", "yz.xz", "yz.yz",
+];
+
 /// How many variables a row stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::interface) enum Each {
@@ -42,7 +53,9 @@ pub(in crate::interface) enum Each {
     Component,
     /// One for each component of the strain of the cell: `<name>.<component>`.
     Strain,
-    /// The same without the component in the name, for one that is there once: `<name>`.
+    /// One for each component of its stress and each of its strain: `<name>.<component>.<component>`.
+    Tangent,
+    /// One for a component of the strain that is there once, without it in the name: `<name>`.
     Shear,
     /// One for each probe: `<probe>.<name>`.
     Probe,
@@ -57,6 +70,7 @@ impl Each {
             Self::Axis | Self::Node | Self::RegionAxis | Self::ProbeAxis => &AXES,
             Self::Component => &COMPONENTS,
             Self::Strain => &STRAINS,
+            Self::Tangent => &TANGENTS,
             Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary

@@ -3,6 +3,7 @@
 use super::meter::Pace;
 use crate::base::words::{counted, plain};
 use crate::engine::simulation::{ContactRecord, Description, Simulation};
+use crate::engine::statics::{Factorise, Motionless, come_to_rest};
 use crate::laws::contact::PairProperties;
 use crate::output::results::files::{Checkpoint, write_checkpoint};
 use crate::output::results::{Failure, OutputError, Refusal};
@@ -60,6 +61,8 @@ pub struct SettleOrder<'a> {
     pub checkpoint: &'a Path,
     /// Time steps after which the attempt is given up.
     pub most_steps: u64,
+    /// What finds the factors for Newton's method; without it time steps are made.
+    pub factorise: Option<Factorise>,
     /// Set from outside to stop.
     pub stop: &'a AtomicBool,
 }
@@ -94,17 +97,21 @@ pub struct Settled {
     pub kinetic_energy: f64,
     /// Wall time \[s\].
     pub wall_time: f64,
+    /// Iterations of Newton's method, where it was tried; why it led nowhere, so that time steps were made.
+    pub newton: Option<Result<usize, Motionless>>,
     /// What could not be taken over from the checkpoint of another scene.
     pub left_behind: Vec<String>,
 }
 
 impl std::fmt::Display for Settled {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let way = match &self.newton {
+            Some(Ok(iterations)) => format!("{} of Newton's method (", counted(*iterations as u64, "iteration")),
+            _ => format!("{} (t = {} s, ", counted(self.steps, "step"), plain(self.time)),
+        };
         write!(
             formatter,
-            "settled after {} (t = {} s, {:.3} s wall): unbalanced force{} {:.3e} of the mean {} force, {}, kinetic energy {:.3e} J",
-            counted(self.steps, "step"),
-            plain(self.time),
+            "settled after {way}{:.3} s wall): unbalanced force{} {:.3e} of the mean {} force, {}, kinetic energy {:.3e} J",
             self.wall_time,
             if self.trembles { ", in the mean of many steps," } else { "" },
             self.ratio,
@@ -112,12 +119,15 @@ impl std::fmt::Display for Settled {
             counted(self.contacts, "contact"),
             self.kinetic_energy
         )?;
+        if let Some(Err(why)) = &self.newton {
+            write!(formatter, "\nremark     by time steps, not by Newton's method: {why}")?;
+        }
         self.left_behind.iter().try_for_each(|left| write!(formatter, "\nnot taken along: {left}"))
     }
 }
 
-/// Runs a scene with damping, its boundaries standing still but for free axes, until the unbalanced force is below the scene's
-/// tolerance; then writes the state as one at time 0, contact histories kept, velocities as they are.
+/// Brings a scene to rest, its boundaries standing still but for free axes, until the unbalanced force is below the scene's
+/// tolerance: bonded networks by Newton's method where it leads there, others by time steps with damping. Then writes the state as one at time 0, contact histories kept, velocities as they are.
 pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> Result<Settled, Failure> {
     let begun = Instant::now();
     let refused = |source| Refusal::Start { scene: order.scene_name.to_owned(), source };
@@ -137,12 +147,25 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         }
     };
     let steps_before = simulation.state().clock.steps;
+    let moves = simulation.state().particles.owner.contains(&0);
+    let bonded = !order.scene.bonds.is_empty() && moves && !simulation.is_filling();
+    let newton = order.factorise.filter(|_| bonded).map(|factorise| {
+        let tolerance = order.scene.run.settle_tolerance;
+        let watch = &mut |ratio| {
+            watch(SettleProgress { steps: 0, ratio, tolerance });
+            !order.stop.load(Ordering::Relaxed)
+        };
+        come_to_rest(&mut simulation, tolerance, factorise, watch)
+    });
     let suits = if order.scene.bonds.is_empty() { DAMPING } else { DAMPING_OF_BONDS };
     simulation.damp_rest(order.scene.run.settle_damping.unwrap_or(suits));
-    let come = match come_to_rest(&mut simulation, &order, watch) {
-        Err(Failure::Run(error)) => return Err(error.into()),
-        come => come,
+    let come = match newton {
+        Some(Ok(_)) => Ok(unbalanced_force(&mut simulation)),
+        _ => settle_down(&mut simulation, &order, watch),
     };
+    if let Err(Failure::Run(error)) = come {
+        return Err(error.into());
+    }
     let (steps, time) = (simulation.state().clock.steps - steps_before, simulation.time());
     let reached = simulation.state().clone();
     let simulation = match order.start {
@@ -172,6 +195,7 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         contacts: simulation.contact_count(),
         kinetic_energy: simulation.kinetic_energy(),
         wall_time: begun.elapsed().as_secs_f64(),
+        newton,
         left_behind,
     })
 }
@@ -184,7 +208,7 @@ fn kept(checkpoint: &Path) -> PathBuf {
 }
 
 /// Steps until several looks in a row find the unbalanced force below the tolerance. Returns the largest of them.
-fn come_to_rest(
+fn settle_down(
     simulation: &mut Simulation,
     order: &SettleOrder<'_>,
     watch: &mut dyn FnMut(SettleProgress),

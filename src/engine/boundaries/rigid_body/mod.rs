@@ -180,7 +180,7 @@ impl RigidBody {
     }
 
     /// Which of its six freedoms are free.
-    fn freedoms(&self) -> [bool; 6] {
+    pub(crate) fn freedoms(&self) -> [bool; 6] {
         let [x, y, z] = self.moves;
         let [a, b, c] = match self.turning {
             Turning::Still | Turning::Led => [false; 3],
