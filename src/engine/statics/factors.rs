@@ -3,9 +3,12 @@
 use super::columns::Columns;
 use super::solution::Bound;
 
+/// Puts solutions in the place of right-hand sides, which stand one behind the other.
+pub type Divide = Box<dyn Fn(&mut [f64])>;
+
 /// Factors of a sparse symmetric matrix: rows that can be moved without a load and stay, each with how everything goes with it while the
 /// others stay; the number of negative pivots; what puts solutions in the place of right-hand sides.
-pub type Factors = (Vec<(usize, Vec<f64>)>, usize, Box<dyn Fn(&mut [f64])>);
+pub type Factors = (Vec<(usize, Vec<f64>)>, usize, Divide);
 
 /// Finds factors of a matrix of so many rows from `(row, column, entry)` of its lower triangle, by pivots above a share of the diagonal; none
 /// where they would be too large.
@@ -17,7 +20,7 @@ const PART: f64 = 1e-3;
 /// Factors of a network.
 pub(super) struct Factored {
     /// Replaces loads by the motions that bear them.
-    pub(super) divide: Box<dyn Fn(&mut [f64])>,
+    pub(super) divide: Divide,
     /// Freedoms that can be moved without a load: they stay.
     pub(super) held: Vec<usize>,
     /// Bodies that move with one of them.

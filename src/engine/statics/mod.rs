@@ -23,7 +23,7 @@ mod network;
 mod newton;
 mod solution;
 
-pub use factors::{Factorise, Factors};
+pub use factors::{Divide, Factorise, Factors};
 pub use newton::{Motionless, come_to_rest};
 
 use crate::base::geometry::lattice::STRAINS;
