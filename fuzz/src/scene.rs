@@ -69,7 +69,7 @@ pub(crate) fn run(bytes: &[u8]) {
     // A check makes a trial of a second.
     if xxh3_64(bytes).is_multiple_of(512) {
         let _ = report::check(&scene, "scene.toml", None).map(|report| report.to_string());
-        let _ = report::stiffness(&scene, "scene.toml", None).map(|report| report.to_string());
+        let _ = report::stiffness(&scene, "scene.toml", None, None).map(|report| report.to_string());
     }
     let Ok(mut simulation) = Simulation::new(scene) else { return };
     expect_finite(&simulation);

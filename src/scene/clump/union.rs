@@ -41,7 +41,7 @@ pub(super) fn moments(spheres: &[Sphere]) -> (Volume, f64) {
     };
     let disjoint = |(place, one): (usize, &Sphere)| spheres[..place].iter().all(|other| apart(one, other));
     if spheres.iter().enumerate().all(disjoint) {
-        return (spheres.iter().fold(Volume::default(), |sum, sphere| whole(sum, sphere)), 0.0);
+        return (spheres.iter().fold(Volume::default(), whole), 0.0);
     }
     let rule = gauss();
     let [fine, coarse] = [1, 2].map(|coarser| {

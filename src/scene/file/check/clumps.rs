@@ -19,6 +19,9 @@ use std::f64::consts::TAU;
 /// Columns of a file that say how a clump is turned.
 const TURN: [&str; 4] = ["qw", "qx", "qy", "qz"];
 
+/// Clumps of a set, where they stand in its text or file, and the further columns of its file.
+type Read = (Vec<Placed>, Place, BTreeMap<String, Vec<f64>>);
+
 /// How large a clump is.
 #[derive(Clone, Copy)]
 enum Size {
@@ -112,7 +115,7 @@ impl SetReader<'_> {
         extra: &[String],
         faults: &mut Faults,
         tell: &mut dyn FnMut(PackingProgress),
-    ) -> Option<(Vec<Placed>, Place, BTreeMap<String, Vec<f64>>)> {
+    ) -> Option<Read> {
         let ParticlesTable { list, file, lattice, packing, .. } = self.written;
         let fallback = self.clump_material(keys, faults);
         if let Some(list) = list {
@@ -207,7 +210,7 @@ impl SetReader<'_> {
         source: &Source,
         extra: &[String],
         faults: &mut Faults,
-    ) -> Option<(Vec<Placed>, Place, BTreeMap<String, Vec<f64>>)> {
+    ) -> Option<Read> {
         let wanted: Vec<String> = extra.iter().cloned().chain(TURN.map(str::to_owned)).collect();
         let mut rows = self.read_file(file, source, &wanted, faults)?;
         let by_label = if rows.label.is_empty() { vec![fallback] } else { self.labelled(file, &rows, faults) };
