@@ -532,7 +532,7 @@ fn newtons_method_leads_a_beam_to_where_time_steps_leave_it() {
         simulation.restore(&begun).unwrap();
         let before = places(&simulation);
         simulation.damp_rest(0.7);
-        simulation.advance(0.1).unwrap();
+        simulation.advance(0.2).unwrap();
         let by_steps = places(&simulation);
         let way = |from: &[[f64; 3]], to: &[[f64; 3]]| {
             let parts = from.as_flattened().iter().zip(to.as_flattened());

@@ -70,7 +70,7 @@ impl Factors {
             .collect();
         let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(rows, rows, &scaled).ok()?;
         let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            supernodal_flop_ratio_threshold: SupernodalThreshold(-1.0), // always: a diagonal matrix has a ratio of 0
             ..Default::default()
         };
         let symbolic =
