@@ -568,7 +568,8 @@ fn a_derivative_is_the_difference_of_two_steps_and_leaves_no_trace() {
     let way = 1e-11;
     let expected = (at(way) - at(-way)) / (2.0 * way);
     assert!(expected < -1.0, "{expected} N/m: the floor is pressed");
-    assert!((found / expected - 1.0).abs() < 1e-5, "{found} N/m, {expected} N/m by differences");
+    // The displacement of a derivative is 1e-13 m here, and places of 0.01 m are rounded to 2e-18 m.
+    assert!((found / expected - 1.0).abs() < 1e-4, "{found} N/m, {expected} N/m by differences");
 }
 
 #[test]
