@@ -267,10 +267,7 @@ impl ClumpBodies {
 
 /// The angular velocity that an angular momentum gives to a clump \[rad/s\].
 fn spin(clumps: &Clumps, clump: usize, momentum: Vector) -> Vector {
-    let turn = Quaternion::from_row(clumps.orientation[clump]);
-    let [a, b, c, _] = clumps.moments[clump];
-    let inside = turn.conjugate().turn(momentum);
-    turn.turn(Vector::new(inside.x / a, inside.y / b, inside.z / c))
+    turning(Quaternion::from_row(clumps.orientation[clump]), Vector::from(clumps.moments[clump]), momentum)
 }
 
 /// Finds the angular velocity of a clump from its angular momentum.
@@ -407,11 +404,42 @@ impl Kernel for Drift<'_, '_> {
                 // SAFETY: the clumps of a block are there, and this thread alone works on them.
                 let speeds = unsafe { drift::<$lanes>(rows, $clump, step) };
                 *fastest = speeds.into_iter().take($lanes::WIDTH).fold(*fastest, larger);
-                (0..$lanes::WIDTH).for_each(|lane| bodies.put($clump + lane, rows, spheres, slots));
+                for lane in 0..$lanes::WIDTH {
+                    bodies.put($clump + lane, rows, spheres, slots);
+                }
             };
         }
         blocks!(bodies.piece(piece), N, block);
     }
+}
+
+// Functions, not closures: what is not inlined into a kernel is compiled without its registers.
+
+/// A block of rows.
+///
+/// # Safety
+/// As for [`drift`].
+#[inline(always)]
+unsafe fn load<N: Lane>(rows: Shared<Row>, first: usize) -> [N; 4] {
+    // SAFETY: the caller's promise.
+    unsafe { N::load_block(rows.pointer().add(first)) }
+}
+
+/// Puts a block of rows in their place.
+///
+/// # Safety
+/// As for [`drift`].
+#[inline(always)]
+unsafe fn store<N: Lane>(values: [N; 4], rows: Shared<Row>, first: usize) {
+    // SAFETY: the caller's promise.
+    unsafe { N::store_block(values, rows.pointer().add(first)) };
+}
+
+/// The angular velocity that an angular momentum gives to a body so turned, with these moments of inertia.
+#[inline(always)]
+fn turning<N: Number>(turn: Quaternion<N>, inertia: Vector<N>, momentum: Vector<N>) -> Vector<N> {
+    let inside = turn.conjugate().turn(momentum);
+    turn.turn(Vector::new(inside.x / inertia.x, inside.y / inertia.y, inside.z / inertia.z))
 }
 
 /// Kicks and drifts a block of clumps. Returns their largest speeds \[m/s\].
@@ -422,15 +450,14 @@ impl Kernel for Drift<'_, '_> {
 unsafe fn drift<N: Lane>(rows: Rows, first: usize, step: f64) -> [f64; 8] {
     // SAFETY: the caller's promise.
     let (position, velocity, orientation, momentum, force, moment, inertia) = unsafe {
-        let load = |rows: Shared<Row>| N::load_block(rows.pointer().add(first));
         (
-            load(rows.position),
-            load(rows.velocity),
-            load(rows.orientation),
-            load(rows.momentum),
-            load(rows.force),
-            load(rows.moment),
-            load(rows.inertia),
+            load(rows.position, first),
+            load(rows.velocity, first),
+            load(rows.orientation, first),
+            load(rows.momentum, first),
+            load(rows.force, first),
+            load(rows.moment, first),
+            load(rows.inertia, first),
         )
     };
     let (half, step) = (N::splat(0.5 * step), N::splat(step));
@@ -445,17 +472,15 @@ unsafe fn drift<N: Lane>(rows: Rows, first: usize, step: f64) -> [f64; 8] {
     let (above, below) = tangent(mean, half);
     let turn = before * Quaternion { scalar: below, vector: mean * (half * above) };
     let turn = turn.normalised();
-    let inside = turn.conjugate().turn(momentum);
-    let spin = turn.turn(Vector::new(inside.x / inertia.x, inside.y / inertia.y, inside.z / inertia.z));
+    let spin = turning(turn, inertia, momentum);
     let mut speeds = [0.0; 8];
     // SAFETY: the caller's promise.
     unsafe {
-        let store = |values: [N; 4], rows: Shared<Row>| N::store_block(values, rows.pointer().add(first));
-        store(place.row_with(position[3]), rows.position);
-        store(moving.row_with(velocity[3]), rows.velocity);
-        store(turn.to_row(), rows.orientation);
-        store(momentum.row_with(N::zero()), rows.momentum);
-        store(spin.row_with(N::zero()), rows.spin);
+        store(place.row_with(position[3]), rows.position, first);
+        store(moving.row_with(velocity[3]), rows.velocity, first);
+        store(turn.to_row(), rows.orientation, first);
+        store(momentum.row_with(N::zero()), rows.momentum, first);
+        store(spin.row_with(N::zero()), rows.spin, first);
         N::store(moving.length() + mean.length() * position[3], speeds.as_mut_ptr());
     }
     speeds
@@ -525,7 +550,9 @@ impl Kernel for Kick<'_, '_> {
                 // SAFETY: the clumps of a block are there, and this thread alone works on them.
                 let speeds = unsafe { kick::<$lanes>(rows, $clump, step) };
                 *fastest = speeds.into_iter().take($lanes::WIDTH).fold(*fastest, larger);
-                (0..$lanes::WIDTH).for_each(|lane| bodies.give_motion($clump + lane, rows, spheres, slots));
+                for lane in 0..$lanes::WIDTH {
+                    bodies.give_motion($clump + lane, rows, spheres, slots);
+                }
             };
         }
         blocks!(bodies.piece(piece), N, block);
@@ -540,33 +567,27 @@ impl Kernel for Kick<'_, '_> {
 unsafe fn kick<N: Lane>(rows: Rows, first: usize, step: f64) -> [f64; 8] {
     // SAFETY: the caller's promise.
     let (position, velocity, orientation, momentum, force, moment, inertia) = unsafe {
-        let load = |rows: Shared<Row>| N::load_block(rows.pointer().add(first));
         (
-            load(rows.position),
-            load(rows.velocity),
-            load(rows.orientation),
-            load(rows.momentum),
-            load(rows.force),
-            load(rows.moment),
-            load(rows.inertia),
+            load(rows.position, first),
+            load(rows.velocity, first),
+            load(rows.orientation, first),
+            load(rows.momentum, first),
+            load(rows.force, first),
+            load(rows.moment, first),
+            load(rows.inertia, first),
         )
     };
     let half = N::splat(0.5 * step);
     let (kick, twist) = (vector(force) * (half / velocity[3]), vector(moment) * half);
     let (moving, momentum) = (vector(velocity) + kick, vector(momentum) + twist);
     let (turn, inertia) = (Quaternion::from_row(orientation), vector(inertia));
-    let spin = |momentum: Vector<N>| {
-        let inside = turn.conjugate().turn(momentum);
-        turn.turn(Vector::new(inside.x / inertia.x, inside.y / inertia.y, inside.z / inertia.z))
-    };
-    let (now, next) = (spin(momentum), spin(momentum + twist));
+    let (now, next) = (turning(turn, inertia, momentum), turning(turn, inertia, momentum + twist));
     let mut speeds = [0.0; 8];
     // SAFETY: the caller's promise.
     unsafe {
-        let store = |values: [N; 4], rows: Shared<Row>| N::store_block(values, rows.pointer().add(first));
-        store(moving.row_with(velocity[3]), rows.velocity);
-        store(momentum.row_with(N::zero()), rows.momentum);
-        store(now.row_with(N::zero()), rows.spin);
+        store(moving.row_with(velocity[3]), rows.velocity, first);
+        store(momentum.row_with(N::zero()), rows.momentum, first);
+        store(now.row_with(N::zero()), rows.spin, first);
         N::store((moving + kick).length() + next.length() * position[3], speeds.as_mut_ptr());
     }
     speeds
