@@ -4,7 +4,7 @@ use crate::ground::{Place, cograin, complaint};
 use std::fs;
 
 /// Ends that the recipes are run to here \[s\]: some time steps of each.
-const ENDS: [(&str, &str); 9] = [
+const ENDS: [(&str, &str); 10] = [
     ("drop", "1e-3"),
     ("oedometer", "2e-4"),
     ("triaxial", "4e-5"),
@@ -14,6 +14,7 @@ const ENDS: [(&str, &str); 9] = [
     ("rock_core", "2e-6"),
     ("plate", "5e-4"),
     ("loaded_beam", "4e-4"),
+    ("clumps", "4e-4"),
 ];
 
 /// Names of the recipes, as the program lists them.
