@@ -17,6 +17,8 @@ A marble falls on a table, a mass on a spring:
 >>> print(program("new", "drop"), end="")  # a scene to start from
 drop: a marble on a table that an outside program lifts
 next: cograin check drop/scene.toml
+      cograin run drop/scene.toml -o drop/out
+      cd drop && python couple.py
 >>> with Unit(program.export("drop/scene.toml", "drop.fmu")) as marble:
 ...     table = Oscillator(mass=0.1, stiffness=1e4)  # [kg], [N/m]
 ...     record = couple(Interface(marble, "table.displacement.z"), table, Secant(), step=1e-4, end=0.06)
