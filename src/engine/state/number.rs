@@ -115,7 +115,9 @@ impl Particles {
             }
         }
         self.keep_rows(|slot| !goes[slot]);
-        for (slot, &index) in self.id.iter().enumerate() {
+        for (slot, (&index, _)) in
+            self.id.iter().zip(&self.owner).enumerate().filter(|(_, (_, owner))| **owner != IMAGE)
+        {
             self.slot[index as usize] = slot as u32;
         }
     }
@@ -163,8 +165,16 @@ fn shorten(ends: &mut [u32], stays: &[bool]) {
 }
 
 impl State {
-    /// Removes particles (slots) and their entries in every list. The caller makes anew what depends on positions.
+    /// Removes particles (slots), their images in a periodic cell, and their entries in every list. The caller makes anew what depends on
+    /// positions.
     pub(crate) fn remove(&mut self, goes: &[bool]) {
+        let mut goes = goes.to_vec();
+        if let Some(cell) = &self.cell {
+            for (&image, &original) in cell.images.iter().zip(&cell.originals) {
+                goes[image as usize] |= goes[original as usize];
+            }
+        }
+        let goes = &goes[..];
         let (mut stay_before, mut count) = (Vec::with_capacity(goes.len() + 1), 0);
         for goes in goes {
             stay_before.push(count);
@@ -173,6 +183,14 @@ impl State {
         stay_before.push(count);
         let moved = Moved { goes, stay_before };
         self.particles.remove(goes);
+        if let Some(cell) = &mut self.cell {
+            let stays: Vec<bool> = cell.images.iter().map(|&image| moved.stays(image)).collect();
+            keep(&mut cell.displaced, |image| stays[image]);
+            for slots in [&mut cell.images, &mut cell.originals] {
+                keep(slots, |image| stays[image]);
+                moved.renumber(slots);
+            }
+        }
         let Columns { x, y, z, radius } = &mut self.neighbours.reference;
         for column in [x, y, z, radius] {
             keep(column, |slot| goes.get(slot).is_none_or(|goes| !goes));
