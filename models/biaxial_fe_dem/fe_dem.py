@@ -1,4 +1,4 @@
-"""A biaxial test: a block of sand in plane strain whose stress comes from cells of grains, one a quadrature point.
+"""A biaxial test: a block of sand in plane strain, whose integration points take their stress from cells of grains.
 
 The lid goes down step by step. In each step the cells start from where they came to rest before, take the strains of
 the block and come to rest again, until the forces on the nodes balance (Newton; the tangents are differences of cells

@@ -2,6 +2,12 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
 
+/// The larger of two numbers, or the second if it is not a number.
+#[inline(always)]
+pub fn larger(most: f64, one: f64) -> f64 {
+    if one > most || one.is_nan() { one } else { most }
+}
+
 /// A row of four numbers, 32 bytes.
 pub type Row = [f64; 4];
 

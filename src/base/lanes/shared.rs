@@ -1,5 +1,8 @@
 //! What several threads write to.
 
+use super::Lane;
+use crate::base::number::Row;
+
 /// A place that several threads write to, each to its own part.
 ///
 /// The passes divide particles and pairs by geometry such that no two parts worked on at the same time touch the
@@ -69,5 +72,29 @@ impl<T> Shared<T> {
         debug_assert!(from <= to && to <= self.length);
         // SAFETY: the caller's promise.
         unsafe { std::slice::from_raw_parts_mut(self.start.add(from), to - from) }
+    }
+}
+
+impl Shared<Row> {
+    /// Reads consecutive rows, lane by lane.
+    ///
+    /// # Safety
+    /// There are [`Lane::WIDTH`] rows from `first` on, and no other thread writes them meanwhile.
+    #[inline(always)]
+    pub unsafe fn load_block<N: Lane>(self, first: usize) -> [N; 4] {
+        debug_assert!(first + N::WIDTH <= self.length);
+        // SAFETY: the caller's promise.
+        unsafe { N::load_block(self.start.add(first)) }
+    }
+
+    /// Writes consecutive rows.
+    ///
+    /// # Safety
+    /// As for [`Shared::load_block`]; no other thread reads them meanwhile either.
+    #[inline(always)]
+    pub unsafe fn store_block<N: Lane>(self, values: [N; 4], first: usize) {
+        debug_assert!(first + N::WIDTH <= self.length);
+        // SAFETY: the caller's promise.
+        unsafe { N::store_block(values, self.start.add(first)) }
     }
 }

@@ -237,7 +237,7 @@ impl<F: Formulation> Slab<'_, '_, F> {
                 let lanes = Lanes::of::<N>(self.work, bond, self.to);
                 N::load_rows(column.pointer(), lanes.bond.as_ptr())
             } else {
-                N::load_block(column.pointer().add(bond))
+                column.load_block(bond)
             }
         }
     }
@@ -254,7 +254,7 @@ impl<F: Formulation> Slab<'_, '_, F> {
                 let lanes = Lanes::of::<N>(self.work, bond, self.to);
                 N::store_rows(row, column.pointer(), lanes.bond.as_ptr());
             } else {
-                N::store_block(row, column.pointer().add(bond));
+                column.store_block(row, bond);
             }
         }
     }

@@ -8,7 +8,7 @@ pub(crate) use fields::{Fields, Load};
 
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::{self, Kernel, Lane, Shared};
-use crate::base::number::Vector;
+use crate::base::number::{Vector, larger};
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::state::{Particles, Row};
 
@@ -90,30 +90,25 @@ impl<K: HalfKick> Kernel for Piece<'_, K> {
     }
 }
 
-/// The larger one, or what is not a number.
-fn larger(most: f64, one: f64) -> f64 {
-    if one > most || one.is_nan() { one } else { most }
-}
-
 /// Reads consecutive rows: a vector and a fourth number for each.
 ///
 /// # Safety
-/// There are [`Lane::WIDTH`] rows at this slot.
+/// As for [`Shared::load_block`].
 #[inline(always)]
 unsafe fn load<N: Lane>(rows: Shared<Row>, slot: usize) -> (Vector<N>, N) {
     // SAFETY: the caller's promise.
-    let columns = unsafe { N::load_block(rows.pointer().add(slot)) };
+    let columns = unsafe { rows.load_block(slot) };
     (Vector::of_row(columns), columns[3])
 }
 
 /// Writes consecutive rows.
 ///
 /// # Safety
-/// As for [`load`]; no other thread reads or writes them meanwhile.
+/// As for [`Shared::store_block`].
 #[inline(always)]
 unsafe fn store<N: Lane>(rows: Shared<Row>, slot: usize, vector: Vector<N>, rest: N) {
     // SAFETY: the caller's promise.
-    unsafe { N::store_block(vector.row_with(rest), rows.pointer().add(slot)) }
+    unsafe { rows.store_block(vector.row_with(rest), slot) }
 }
 
 /// The first half of a kick, and the drift.

@@ -1,6 +1,7 @@
 //! One time step by velocity Verlet, and the evaluation of the forces.
 
 use super::{RunError, Simulation};
+use crate::base::number::larger;
 use crate::base::threads::Context;
 use crate::engine::boundaries::{course, loads, nodes, rigid_body};
 use crate::engine::clumps;
@@ -77,7 +78,6 @@ impl Simulation {
         let particles = integration::kick_again(&mut self.state.particles, gravity, step, self.turning, context);
         let bodies = rigid_body::kick_again(&self.bodies, &mut self.state, step);
         let clumps = self.clumps.as_ref().map_or(0.0, |clumps| clumps.kick_again(&mut self.state, step, context));
-        let larger = |most: f64, one: f64| if one > most || one.is_nan() { one } else { most };
         let speed = [bodies, clumps].into_iter().fold(particles, larger);
         self.state.clock.speed = speed;
         self.done("kick");

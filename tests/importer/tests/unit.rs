@@ -20,7 +20,7 @@ fn unit(name: &str) -> Fmi2Import {
     let program = std::env::var_os("COGRAIN_PROGRAM").map_or_else(|| "target/debug/cograin".into(), PathBuf::from);
     let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.fmu"));
     let mut command = Command::new(root().join(program));
-    command.arg("export").arg(root().join("models/piston/scene.toml")).arg("-o").arg(&file);
+    command.arg("export").arg(root().join("models/piston/scene.toml")).arg("-o").arg(&file).arg("--overwrite");
     let done = command.output().unwrap_or_else(|error| panic!("{command:?}: {error}"));
     assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
     fmi::import::from_path(&file).unwrap_or_else(|error| panic!("{error}"))

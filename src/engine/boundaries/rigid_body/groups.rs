@@ -2,7 +2,7 @@
 
 use super::{RigidBody, Turning};
 use crate::base::geometry::Quaternion;
-use crate::base::number::Vector;
+use crate::base::number::{Vector, larger};
 use crate::engine::state::{BoundaryState, Particles, State};
 use crate::scene::{Boundary, Scene};
 
@@ -79,11 +79,6 @@ pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &mut State, step: 
 pub(crate) fn coming_speed(bodies: &[Option<RigidBody>], state: &State, step: f64) -> f64 {
     let free = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| Some((body.as_ref()?, moved)));
     free.fold(0.0, |most, (body, moved)| larger(most, body.coming_speed(moved, step)))
-}
-
-/// The larger of two numbers, or the second if it is NaN.
-fn larger(most: f64, one: f64) -> f64 {
-    if one > most || one.is_nan() { one } else { most }
 }
 
 /// Gives the spheres of a group the motion that it has after a kick.
