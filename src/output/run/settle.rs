@@ -119,7 +119,8 @@ impl std::fmt::Display for Settled {
             counted(self.contacts, "contact"),
             self.kinetic_energy
         )?;
-        if let Some(Err(why)) = &self.newton {
+        // That particles touch is nothing to wonder about.
+        if let Some(Err(why)) = self.newton.as_ref().filter(|newton| **newton != Err(Motionless::Touching)) {
             write!(formatter, "\nremark     by time steps, not by Newton's method: {why}")?;
         }
         self.left_behind.iter().try_for_each(|left| write!(formatter, "\nnot taken along: {left}"))
