@@ -198,9 +198,9 @@ const ROUGH: &str = "restitution = 0.6\nfriction = 0.4";
 
 /// Strains to which the dense cell is brought, one after the other.
 const COURSE: [[f64; 6]; 3] = [
-    [-0.10, -0.10, -0.08, 0.0, 0.0, 0.0],
-    [-0.18, -0.16, -0.15, 0.05, -0.03, 0.02],
-    [-0.15, -0.18, -0.17, 0.10, -0.06, 0.02],
+    [-0.30, -0.30, -0.30, 0.0, 0.0, 0.0],
+    [-0.45, -0.42, -0.42, 0.05, -0.03, 0.02],
+    [-0.42, -0.45, -0.45, 0.10, -0.06, 0.02],
 ];
 
 #[test]
@@ -220,7 +220,7 @@ fn work_is_mean_stress_times_strain_times_volume_and_the_books_close() {
         }
         before = strains;
     }
-    assert!(simulation.contact_count() > 60, "{}", simulation.contact_count());
+    assert!(simulation.contact_count() > 100, "{}", simulation.contact_count());
     let turnover = simulation.state().ledger.as_ref().unwrap().turnover;
     let residual = simulation.energy_residual().unwrap();
     assert!(residual.abs() < 1e-12 * turnover, "{residual:e} J of {turnover:e} J");
@@ -253,7 +253,7 @@ fn the_physical_residual_vanishes_with_the_square_of_the_step() {
         (simulation.physical_residual().unwrap(), simulation.state().cell.as_ref().unwrap().work)
     };
     let ((coarse, work), (fine, _)) = (residual("step = 2e-5"), residual("step = 5e-6"));
-    assert!(coarse.abs() < 1e-2 * work && fine.abs() < 0.25 * coarse.abs(), "{coarse:e} J, {fine:e} J of {work:e} J");
+    assert!(coarse.abs() < 5e-2 * work && fine.abs() < 0.25 * coarse.abs(), "{coarse:e} J, {fine:e} J of {work:e} J");
 }
 
 #[test]
@@ -277,8 +277,9 @@ fn clumps_of_one_sphere_do_what_loose_spheres_do() {
         (simulation.cell_stress(), simulation.state().cell.as_ref().unwrap().work)
     };
     let ((clumps, work), (loose, expected)) = (run(true), run(false));
-    assert_near(&clumps, &loose, 1e-9);
-    assert_near(&[work], &[expected], 1e-9);
+    // Impacts make roundings larger.
+    assert_near(&clumps, &loose, 1e-6);
+    assert_near(&[work], &[expected], 1e-6);
 }
 
 #[test]
@@ -334,7 +335,7 @@ fn what_is_written_whole_edges_away_has_the_same_bits_and_a_shift_changes_roundi
     let (stress, velocities, places) = run([0.0; 3]);
     // A shift by which no number is rounded otherwise: the clumps are astride the same faces.
     let (again, _, _) = run([0.011, -0.0203, 0.005]);
-    assert_near(&again, &stress, 1e-7);
+    assert_near(&again, &stress, 1e-6);
     let one = |shift: f64| {
         let at = [0.25 + shift, 1.75, 0.5 - shift];
         let mut simulation = start(&format!(
