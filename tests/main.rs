@@ -12,6 +12,8 @@ mod bonded_exchange;
 mod bonds;
 mod books;
 mod cell;
+mod clump_cell;
+mod clump_exchange;
 mod clumps;
 mod coefficients;
 mod derivatives;

@@ -115,9 +115,9 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
         let radius = position[3];
         let volume = region.shape.volume_of_sphere(Vector::from(*position) - shift, radius);
         if volume > 0.0 {
-            let mass = clumps::mass_of(scene, particles, slot) * (volume / sphere_volume(radius));
+            let mass = clumps::mass_of(scene, (particles, &state.clumps), slot) * (volume / sphere_volume(radius));
             content.solid +=
-                volume * state.clump(slot).map_or(1.0, |clump| fullness[scene.clumps[clump].shape as usize]);
+                volume * state.clump(slot).map_or(1.0, |clump| fullness[state.clumps.shape[clump] as usize]);
             content.mass += mass;
             for axis in 0..3 {
                 content.velocity[axis] += mass * particles.velocity[slot][axis];

@@ -127,11 +127,6 @@ impl Search {
         self.reach
     }
 
-    /// Radius of the largest particle \[m\].
-    pub(crate) fn largest_radius(&self) -> f64 {
-        self.largest
-    }
-
     /// Radius of the smallest particle \[m\].
     pub(crate) fn smallest_radius(&self) -> f64 {
         self.smallest
@@ -319,7 +314,7 @@ fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
 fn laws(scene: &Scene) -> Laws {
     let (materials, governing) = (scene.materials.len(), scene.governing_laws());
     let groups = scene.cell.is_some()
-        || !scene.clumps.is_empty()
+        || scene.has_clumps()
         || scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
     let here = scene.present();
     let mut met = (0..here.len().pow(2))

@@ -56,7 +56,7 @@ pub(super) fn scene(
     let forces = damping::forces(&written, &born, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
-        exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
+        exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
     let cell = written.cell.as_ref().and_then(|keys| keys.cell(&mut |key, mistake| faults.add("cell", key, mistake)));
     let (probes, derived) = looks(&written, &born.sets, &mut faults);
     let mut draft = SceneDraft {
