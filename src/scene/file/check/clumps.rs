@@ -2,7 +2,7 @@
 
 use super::named_tables::Named;
 use super::place::Place;
-use super::set_reader::{ReadSet, SetReader, Unnumbered};
+use super::set_reader::{ReadSet, SetReader, Unnumbered, of_all};
 use crate::base::document::{Faults, Mistake};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
@@ -163,6 +163,7 @@ impl SetReader<'_> {
 
     /// Clumps written one by one.
     fn listed_clumps(&self, list: &[ListEntry], fallback: Option<MaterialIndex>, faults: &mut Faults) -> Vec<Placed> {
+        self.tell_unread(|key| of_all(list, key), faults);
         let mut placed = Vec::new();
         for (row, entry) in list.iter().enumerate() {
             let at = |key: &str| format!("list.{}.{key}", row + 1);
@@ -230,6 +231,14 @@ impl SetReader<'_> {
             faults.in_file(file, Some(1), &self.table, "", mistake);
             return None;
         }
+        let own = |key: &str| match key {
+            "material" => !rows.label.is_empty(),
+            "density" => column("density").is_some(),
+            "velocity" => ["vx", "vy", "vz"].into_iter().any(|name| column(name).is_some()),
+            "angular_velocity" => ["wx", "wy", "wz"].into_iter().any(|name| column(name).is_some()),
+            _ => turned.iter().all(Option::is_some),
+        };
+        self.tell_unread(own, faults);
         let mut placed = Vec::with_capacity(rows.count);
         for row in 0..rows.count {
             let material = by_label[if rows.label.is_empty() { 0 } else { rows.label[row] as usize }]?;
@@ -275,6 +284,29 @@ fn any_turn(random: &mut ChaCha8Rng) -> Quaternion {
     let (near, far) = ((1.0 - share).sqrt(), share.sqrt());
     let vector = Vector::new(near * libm::sin(TAU * one), near * libm::cos(TAU * one), far * libm::sin(TAU * other));
     Quaternion { scalar: far * libm::cos(TAU * other), vector }.normalised()
+}
+
+/// Tells clumps that no set places, and what all sets that place them say themselves.
+pub(super) fn tell_unread(written: &Named<ClumpKeys>, sets: &Named<ParticlesTable>, faults: &mut Faults) {
+    for (name, keys) in written {
+        let table = format!("clump.{name}");
+        let users: Vec<_> =
+            sets.iter().map(|(_, set)| set).filter(|set| set.clump.as_deref() == Some(name.as_str())).collect();
+        if users.is_empty() {
+            faults.unread(&table, "spheres", "no set places such clumps");
+            continue;
+        }
+        let listed = |set: &ParticlesTable, key: &str| set.list.as_ref().is_some_and(|list| of_all(list, key));
+        let material = |set: &&ParticlesTable| set.material.is_some() || listed(set, "material");
+        let density = |set: &&ParticlesTable| set.density.is_some() || listed(set, "density");
+        let own = [
+            ("material", keys.material.is_some() && users.iter().all(material)),
+            ("density", keys.density.is_some() && users.iter().all(density)),
+        ];
+        for (key, _) in own.into_iter().filter(|(_, own)| *own) {
+            faults.unread(&table, key, "all that place such clumps have their own");
+        }
+    }
 }
 
 /// Reads the shapes of clumps.
