@@ -426,6 +426,16 @@ fn the_automatic_step_follows_a_strain_that_closes_all_contacts() {
 }
 
 #[test]
+fn the_automatic_step_follows_the_largest_rates_of_servos() {
+    // In a step in which nothing goes farther than a tenth of a radius strains would change by 0.08.
+    let each = ["xx", "yy", "zz"].map(|axis| format!("{axis} = {{ stress = -1e4, max_rate = 500.0 }}")).join(", ");
+    let text = lattice("sc", [3, 3, 3], 2.1e-3, 1e-3, &format!("motion = {{ servo = {{ {each} }} }}"));
+    let mut simulation = start(&text.replace("step = 1e-5", "step = \"auto\""));
+    simulation.advance(2e-4).unwrap();
+    assert!(simulation.state().clock.last_step <= 0.05 / 1500.0, "{}", simulation.state().clock.last_step);
+}
+
+#[test]
 fn a_servo_reaches_its_stress() {
     let more = "motion = { servo = { xx = { stress = -2e4, max_rate = 5.0 }, yy = { stress = -2e4, max_rate = 5.0 }, \
                 zz = { stress = -4e4, max_rate = 5.0 } } }";

@@ -3,11 +3,12 @@
 use super::bonded_pairs::{Bonded, idle};
 use super::finding::Finding;
 use crate::base::document::Mistake;
+use crate::base::quantity::ParticleId;
 use crate::laws::bond::creation::ContactPolicy;
 use crate::laws::contact::{Law, MaterialPair, Missing};
 use crate::scene::cell::with_images;
 use crate::scene::packing::overlaps::for_each_overlap;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, SceneDraft, plane_objections};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, Probe, Probed, SceneDraft, plane_objections};
 use std::collections::BTreeSet;
 
 /// Whether each two materials that can touch have a law, and the law its properties.
@@ -114,7 +115,7 @@ pub(super) fn places(scene: &SceneDraft) -> Vec<Finding> {
 fn looks(scene: &SceneDraft) -> Vec<Finding> {
     let sets = scene.sets.len();
     let probes = scene.probes.iter().filter_map(|probe| {
-        let (key, mistake) = probe.objection(&scene.particles, sets)?;
+        let (key, mistake) = probe.objection(&scene.particles, sets).or_else(|| of_one_clump(scene, probe))?;
         Some(Finding::at(format!("probe.{}", probe.name), key, mistake))
     });
     let derived =
@@ -127,6 +128,23 @@ fn looks(scene: &SceneDraft) -> Vec<Finding> {
             Finding::at(format!("derived.{}", derived.name), key, mistake)
         });
     probes.chain(derived).collect()
+}
+
+/// What speaks against a probe of a contact that never comes: of two spheres of one clump.
+fn of_one_clump(scene: &SceneDraft, probe: &Probe) -> Option<(&'static str, Mistake)> {
+    let Probed::Contact(ids) = probe.of else { return None };
+    let clump = |id: ParticleId| {
+        let place = scene.particles.binary_search_by_key(&id.0, |particle| particle.id.0).ok()? as u32;
+        let behind = scene.clumps.partition_point(|clump| clump.first <= place);
+        let clump = behind.checked_sub(1)?;
+        let of = &scene.clumps[clump];
+        (place - of.first < scene.clump_shapes[of.shape as usize].spheres.len() as u32).then_some(clump)
+    };
+    let [a, b] = ids.map(clump);
+    (a.is_some() && a == b).then(|| {
+        let found = format!("{} and {} of one clump", ids[0].0, ids[1].0);
+        ("contact", Mistake::Unexpected { found, expected: "two particles that can touch".to_owned() })
+    })
 }
 
 /// Spacing of numbers at a particle over its radius, above which its place is too coarse to say what it touches.

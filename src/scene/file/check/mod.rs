@@ -50,7 +50,7 @@ pub(super) fn scene(
     let born = particles::particles(&written, source, &materials, &mut faults, tell);
     faults.so_far()?;
     let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
-    let bonds = bonds::bonds(&written, document, source, &born, &boundaries, &run, &mut faults);
+    let bonds = bonds::bonds(&written, source, &born, &boundaries, &run, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
@@ -86,6 +86,7 @@ pub(super) fn scene(
         output: written.output,
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
+        unread: faults.all_unread().to_vec(),
     };
     draft.parameters = parameters::of_scene(&draft, document);
     relations(&draft, document, &mut faults);

@@ -53,6 +53,7 @@ pub(super) fn particles(
     if faults.count() > before {
         return born;
     }
+    super::clumps::tell_unread(written, faults);
     let mut places = Vec::new();
     let mut newborn = Vec::new();
     for (index, (name, table)) in written.particles.iter().enumerate() {
