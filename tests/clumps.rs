@@ -641,7 +641,7 @@ fn a_bed_of_clumps_is_as_stiff_as_it_is_when_time_steps_have_settled() {
         planes.concat()
     ));
     let floor = BoundaryIndex(5);
-    let mut to = |simulation: &mut Simulation, axis: usize, way: f64, time: f64| {
+    let to = |simulation: &mut Simulation, axis: usize, way: f64, time: f64| {
         simulation.set_input(floor, axis, way);
         simulation.advance(0.02).expect("it runs");
         simulation.advance(time).expect("it runs");

@@ -293,7 +293,7 @@ class Coupling:
         """One step; if it is left early, both sides go back to its beginning."""
         own, exchange = dict(vars(self)), self.exchange.memory()
         partner = self.partner.memory() if hasattr(self.partner, "memory") else None
-        begun, began = len(self.record), [unit.time for unit in self.interface.units]
+        begun, began = len(self.record), self.interface.time
         if self._saves:
             self.interface.save()
         try:
@@ -306,10 +306,11 @@ class Coupling:
                 self._level -= 1
             return row
         except BaseException as error:
-            if not self._saves and [unit.time for unit in self.interface.units] != began:
+            if not self._saves and self.interface.time != began:
                 said = str(error) or type(error).__name__
-                time = max(unit.time for unit in self.interface.units)
-                self._broken = f"t = {time:g} s: the units have made the step, the partner has not: {said}"
+                self._broken = (
+                    f"t = {self.interface.time:g} s: the units have made the step, the partner has not: {said}"
+                )
                 raise
             vars(self).update(own)
             del self.record.rows[begun:]
