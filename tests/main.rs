@@ -12,6 +12,8 @@ mod bonded_exchange;
 mod bonds;
 mod books;
 mod cell;
+mod cell_boundaries;
+mod cell_exchange;
 mod clumps;
 mod coefficients;
 mod derivatives;

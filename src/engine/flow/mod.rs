@@ -122,7 +122,7 @@ impl Flow {
             (net.kinetic, net.turnover) = (net.kinetic - turning, net.turnover + turning);
             let id = particles.id[slot];
             let applied = fields.applied(id);
-            let (load, place) = (fields.loads(particles.velocity[slot][3], id), Vector::from(particles.position[slot]));
+            let (load, place) = (fields.loads(particles.velocity[slot][3], id), Vector::from(state.unwrapped(slot)));
             net.potential += Vector::from(load).dot(place);
             for axis in 0..3 {
                 net.applied[axis] -= applied[axis];

@@ -49,7 +49,10 @@ pub(super) fn feed(
         exchange.net.add(&net);
         feed.came.add(velocity[3]);
         let (material, inertia) = (insertion.material.0, ParticleShape::Sphere.inertia(velocity[3], position[3]));
-        state.particles.add(&InsertedParticle { position, velocity, inertia, material, number }, turning);
+        let index = state.particles.add(&InsertedParticle { position, velocity, inertia, material, number }, turning);
+        if let Some(cell) = &mut state.cell {
+            cell.begin_at(index);
+        }
     }
     if let Some(kept) = state.exchange.as_mut().and_then(|exchange| exchange.feeds.get_mut(index)) {
         *kept = feed;

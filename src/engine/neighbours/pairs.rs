@@ -285,7 +285,10 @@ impl FoundPairs {
         let mut kept = before;
         for pair in before..self.count {
             let j = self.second[pair];
-            let together = owner[i as usize] != 0 && owner[i as usize] == owner[j as usize];
+            // Two images make no pair, and images of a group or a clump are one body with it.
+            let [one, other] = [i, j].map(|slot| owner[slot as usize]);
+            let of = |slot: u32| owner[look.particles.original(slot) as usize];
+            let together = one != 0 && other != 0 && (one == other || of(i) == of(j));
             let law = look.laws.between(material[i as usize], material[j as usize]);
             if let Some(law) = law.filter(|_| !together) {
                 self.first[kept] = i;

@@ -341,7 +341,7 @@ impl<'a> Network<'a> {
     pub(super) fn mover(&self, slot: u32) -> Option<usize> {
         let group = match self.state.particles.owner.get(slot as usize) {
             Some(0) => return Some(slot as usize),
-            Some(&IMAGE) => return Some(self.state.particles.original(slot) as usize),
+            Some(&IMAGE) => return self.mover(self.state.particles.original(slot)),
             Some(owner) => *owner as usize - 1,
             None => (slot as usize).checked_sub(self.roots.len())?,
         };

@@ -2,6 +2,7 @@
 
 use super::in_place::clone_in_place;
 use super::{Row, plain};
+use crate::base::geometry::lattice::displacement;
 use serde::{Deserialize, Serialize};
 
 /// A number for each component of the deformation, in the order of [`STRAINS`](crate::base::geometry::lattice::STRAINS).
@@ -106,6 +107,21 @@ impl CellState {
     pub(crate) fn streaming_at(&self, position: Row) -> [f64; 3] {
         let [x, y, z] = [0, 1, 2].map(|axis| position[axis] - self.origin[axis]);
         self.gradient.map(|[along_x, along_y, along_z]| along_x * x + along_y * y + along_z * z)
+    }
+
+    /// A particle that comes, by its index, is where it is.
+    pub(crate) fn begin_at(&mut self, index: u32) {
+        let index = index as usize;
+        if index == self.edges_away.len() {
+            self.edges_away.push([0; 3]);
+        } else {
+            self.edges_away[index] = [0; 3];
+        }
+    }
+
+    /// How far one of the scene's particles, by its index, has been brought back into the cell \[m\].
+    pub(crate) fn brought_back(&self, index: u32) -> [f64; 3] {
+        displacement(&self.edges, self.edges_away[index as usize])
     }
 
     /// Whether the cell is being deformed.

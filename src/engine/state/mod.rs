@@ -43,7 +43,6 @@ pub use particles::{GONE, IMAGE, Particles};
 
 pub use crate::base::number::Row;
 
-use crate::base::geometry::Lattice;
 use in_place::clone_in_place;
 use serde::{Deserialize, Serialize};
 
@@ -146,8 +145,7 @@ impl State {
     pub(crate) fn unwrapped(&self, slot: usize) -> [f64; 3] {
         let [x, y, z, _] = self.particles.position[slot];
         let Some(cell) = &self.cell else { return [x, y, z] };
-        let lattice = Lattice { edges: cell.edges, ..Lattice::default() };
-        let [u, v, w] = lattice.displacement(cell.edges_away[self.particles.id[slot] as usize]);
+        let [u, v, w] = cell.brought_back(self.particles.id[slot]);
         [x + u, y + v, z + w]
     }
 

@@ -74,8 +74,8 @@ impl Particles {
         self.slot.get(index as usize).filter(|slot| **slot != GONE).map(|&slot| slot as usize)
     }
 
-    /// Appends a particle. `turning`: whether particles have an orientation.
-    pub(crate) fn add(&mut self, newcomer: &InsertedParticle, turning: bool) {
+    /// Appends a particle. `turning`: whether particles have an orientation. Returns its index.
+    pub(crate) fn add(&mut self, newcomer: &InsertedParticle, turning: bool) -> u32 {
         let slot = self.len() as u32;
         let index = self.free.pop().unwrap_or_else(|| {
             self.slot.push(GONE);
@@ -99,6 +99,7 @@ impl Particles {
         self.material.push(newcomer.material);
         self.owner.push(0);
         self.id.push(index);
+        index
     }
 
     /// Removes particles (slots).
@@ -165,16 +166,19 @@ fn shorten(ends: &mut [u32], stays: &[bool]) {
 }
 
 impl State {
+    /// Whether what is in each slot goes, where of the particles these go: with them go their images in a periodic cell.
+    pub(crate) fn with_images(&self, goes: &[bool]) -> Vec<bool> {
+        let mut goes = goes.to_vec();
+        for (&image, &original) in self.cell.iter().flat_map(|cell| cell.images.iter().zip(&cell.originals)) {
+            goes[image as usize] |= goes[original as usize];
+        }
+        goes
+    }
+
     /// Removes particles (slots), their images in a periodic cell, and their entries in every list. The caller makes anew what depends on
     /// positions.
     pub(crate) fn remove(&mut self, goes: &[bool]) {
-        let mut goes = goes.to_vec();
-        if let Some(cell) = &self.cell {
-            for (&image, &original) in cell.images.iter().zip(&cell.originals) {
-                goes[image as usize] |= goes[original as usize];
-            }
-        }
-        let goes = &goes[..];
+        let goes = &self.with_images(goes)[..];
         let (mut stay_before, mut count) = (Vec::with_capacity(goes.len() + 1), 0);
         for goes in goes {
             stay_before.push(count);
