@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What particles that come, go and are looked at cost a scene: instructions of a time step of 1,000 spheres that press each other in a box with nothing of it, and what
-each table adds where nothing comes, goes or passes. With --other also those of another build of the program, such as one from before there was any of it.
+each table adds where nothing comes, goes or passes; a periodic cell stands in place of the box. With --other also those of another build of the program, such as one from
+before there was any of it.
 
 Counted by valgrind, so the load of the machine does not matter. Set-up is removed by two numbers of steps.
 """
@@ -51,17 +52,18 @@ ADDED = {
     "mesh with fixed nodes": '[boundary.skin]\nmesh = { file = "skin.obj", sides = 2 }\nmaterial = "glass"\n',
     "mesh with driven nodes": '[boundary.skin]\nmesh = { file = "skin.obj", sides = 2 }\nmaterial = "glass"\nnodes = "driven"\n',
 }
+CELL = "[cell]\nedges = [[0.0999, 0.0, 0.0], [0.0, 0.0999, 0.0], [0.0, 0.0, 0.0999]]\n"
 SKIN = "v 0.3 0.3 0.3\nv 0.4 0.3 0.3\nv 0.4 0.4 0.3\nv 0.3 0.4 0.3\nf 1 2 3\nf 1 3 4\n"
 
 
-def each_step(program, added):
+def each_step(program, added, walls=WALLS):
     """Instructions of a time step of the scene with what is added."""
     counted = []
     for count in COUNTS:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "skin.obj").write_text(SKIN)
-            (folder / "scene.toml").write_text(SCENE.format(end=count * STEP, step=STEP, walls=WALLS) + added)
+            (folder / "scene.toml").write_text(SCENE.format(end=count * STEP, step=STEP, walls=walls) + added)
             counted.append(instructions([program, "run", "scene.toml", "-o", "out"], folder))
     return (counted[1] - counted[0]) / (COUNTS[1] - COUNTS[0])
 
@@ -76,8 +78,10 @@ def main():
     if options.other:
         other = each_step(options.other, "")
         print(f"{other:.0f} by the other build: {100.0 * (without / other - 1.0):+.2f} %", flush=True)
-    for name, added in ADDED.items():
-        more = each_step(options.cograin, added) - without
+    scenes = {name: (added, WALLS) for name, added in ADDED.items()}
+    scenes |= {"a cell for the box": (CELL, "")}
+    for name, scene in scenes.items():
+        more = each_step(options.cograin, *scene) - without
         print(f"{name}: {more:+.0f}, {100.0 * more / without:+.2f} %", flush=True)
 
 

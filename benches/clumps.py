@@ -2,9 +2,11 @@
 
     python benches/clumps.py cost --program target/release/cograin       some three minutes
     python benches/clumps.py lammps --program target/release/cograin --peer lmp
+    python benches/clumps.py yade --program target/release/cograin --peer yade
 
 `cost` lets 7,128 clumps settle, then the same spheres loose from the same places, and times 800 further steps of each
 by turns. `lammps` runs 216 clumps in `fix rigid/small` too and tells how far spheres are apart, over their radius.
+`yade` runs them in YADE until they rest, and tells energies and heights, too, and those of four other seeds of cograin.
 """
 
 import argparse
@@ -173,19 +175,111 @@ def lammps(program, folder, peer):
             print(f"{name}, {0.005 * index:.3f} s: {apart:.1e} of a radius at the most")
 
 
+YADE = """
+import numpy as np
+rows = np.loadtxt("bed.txt")
+rock = O.materials.append(ViscElMat(kn={kn!r}, cn={cn!r}, ks={ks!r}, cs=0.0, frictionAngle={angle!r}, density=2500.0))
+spheres = [utils.sphere(row[:3], row[3], material=rock) for row in rows]
+clumps, members = [], []
+for first in range(0, len(rows), 3):
+    clump, three = O.bodies.appendClumped(spheres[first : first + 3])
+    clumps.append(clump)
+    members += three
+    # It holds the velocity of half a step before.
+    O.bodies[clump].state.vel = rows[first, 4:] + [0.0, 0.0, 0.5 * 9.81 * {step!r}]
+for axis, place, sense in ((0, 0.0, 1), (0, {width!r}, -1), (1, 0.0, 1), (1, {width!r}, -1), (2, 0.0, 1)):
+    O.bodies.append(utils.wall(place, axis, sense=sense, material=rock))
+O.dt = {step!r}
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Wall_Aabb()], verletDist=0.5e-3),
+    InteractionLoop(
+        [Ig2_Sphere_Sphere_ScGeom(avoidGranularRatcheting=False), Ig2_Wall_Sphere_ScGeom()],
+        [Ip2_ViscElMat_ViscElMat_ViscElPhys()],
+        [Law2_ScGeom_ViscElPhys_Basic()],
+    ),
+    NewtonIntegrator(damping=0.0, gravity=(0.0, 0.0, -9.81), exactAsphericalRot=True),
+]
+told = []
+for sample, steps in enumerate({samples}):
+    O.run(steps - O.iter, True)
+    # The energies of clumps; members have none of their own.
+    kinetic = 0.0
+    for body in clumps:
+        state = O.bodies[body].state
+        spin = state.ori.conjugate() * state.angVel
+        kinetic += 0.5 * (state.mass * state.vel.squaredNorm() + sum(state.inertia[k] * spin[k] ** 2 for k in range(3)))
+    told.append(kinetic)
+    np.savetxt("yade_%d.txt" % sample, [list(O.bodies[body].state.pos) for body in members], "%.17g")
+np.savetxt("yade.txt", told, "%.17g")
+"""
+
+
+def yade(program, folder, peer):
+    """Places, heights and energies until the clumps rest; dashpots know no masses, and forces never pull."""
+    step, samples, width, viscosity = 1e-5, [500, 1000, 2000, 5000, 10000, 20000, 40000], 0.0633, 0.15
+    for name, friction, tangential in (("smooth", 0.0, ""), ("rough", 0.4, ROUGH["friction"])):
+        values = {"step": step, "end": step * samples[-1], "more": 'scheme = "engine"', "damping": viscosity}
+        values |= {"width": width, "frames": 500 * step, "friction": f"absolute_damping = true\n{tangential}"}
+        shear = "tangential_stiffness = 1000.0\nabsolute_tangential_damping = 0.0\n" if friction else ""
+        scene = SCENE.format(
+            particles=CLUMPS.format(counts=[6, 6, 6]), tangential=f"{shear}friction = {friction}", **values
+        )
+        scene = scene.replace("\nnormal_damping", "\nabsolute_normal_damping")
+        scene = scene.replace("[contact.touch.normal", "[contact.touch]\nlimit_force = true\n[contact.touch.normal")
+        scene += f"history_interval = {500 * step!r}\n"
+        (folder / "bed.toml").write_text(scene)
+        run(program, folder / "bed.toml", folder / "bed")
+        frames = [meshio.read(path) for path in sorted((folder / "bed").glob("particles_*.vtu"))]
+        energies = np.genfromtxt(folder / "bed" / "history.csv", delimiter=",", names=True, deletechars="")
+        first = frames[0]
+        order = np.argsort(first.point_data["clump"], kind="stable")
+        columns = [first.points, first.point_data["radius"], first.point_data["velocity"]]
+        np.savetxt(folder / "bed.txt", np.column_stack(columns)[order], "%.17g")
+        # The springs of two equal bodies are in series.
+        text = YADE.format(
+            kn=4000.0,
+            cn=2 * viscosity,
+            ks=2000.0 * bool(friction),
+            angle=float(np.arctan(friction)),
+            width=width,
+            step=step,
+            samples=samples,
+        )
+        (folder / "bed.py").write_text(text)
+        subprocess.run([peer, "-n", "-x", "-j1", "bed.py"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+        kinetic, radius = np.loadtxt(folder / "yade.txt"), float(first.point_data["radius"][0])
+        for sample, steps in enumerate(samples):
+            own, theirs = frames[steps // 500].points[order], np.loadtxt(folder / f"yade_{sample}.txt")
+            apart = np.linalg.norm(own - theirs, axis=1).max() / radius
+            heights = [1e3 * places[:, 2].mean() for places in (own, theirs)]
+            print(
+                f"{name}, {steps * step:.3f} s: {apart:.1e} of a radius at the most; mean height {heights[0]:.3f} and"
+                f" {heights[1]:.3f} mm; kinetic energy {energies['energy.kinetic'][steps // 500]:.4e} and"
+                f" {kinetic[sample]:.4e} J",
+                flush=True,
+            )
+        for seed in range(2, 6):
+            run(program, folder / "bed.toml", folder / "bed", "--set", f"run.seed={seed}")
+            last = meshio.read(sorted((folder / "bed").glob("particles_*.vtu"))[-1])
+            print(f"{name}, seed {seed}: mean height {1e3 * last.points[:, 2].mean():.3f} mm at the end", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["cost", "lammps"])
+    parser.add_argument("what", choices=["cost", "lammps", "yade"])
     parser.add_argument(
         "--program", type=lambda path: Path(path).resolve(), default=Path("target/release/cograin").resolve()
     )
-    parser.add_argument("--peer", default="lmp", help="LAMMPS")
+    parser.add_argument("--peer", help="the other program; by default lmp or yade")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         if options.what == "cost":
             cost(options.program, Path(folder))
+        elif options.what == "lammps":
+            lammps(options.program, Path(folder), options.peer or "lmp")
         else:
-            lammps(options.program, Path(folder), options.peer)
+            yade(options.program, Path(folder), options.peer or "yade")
 
 
 if __name__ == "__main__":

@@ -1,10 +1,11 @@
 //! Whole time steps of the common scenes: user CPU time of a contact (or bond) and step.
 //!
-//! `cargo bench --bench whole_step -- [SCENE] [--steps N] [--threads N] [--widths] [--parts] [--packing FILE.csv.gz] [--laws]`
+//! `cargo bench --bench whole_step -- [SCENE] [--steps N] [--threads N] [--widths] [--parts] [--packing FILE.csv.gz] [--laws] [--copies N] [--turn N]`
 //!
 //! `--laws` runs the dense packing with every contact law there is instead, or those whose names hold SCENE.
 //! SCENE is part of a name below; without one all of them run. `--widths` repeats each in every lane width: the states
-//! must be the same. `--parts` prints what each part of a step takes. Peers on the same scenes: LIGGGHTS 49 ns (s1), 66 ns (s2), LAMMPS 136 ns a bond (s3).
+//! must be the same. `--copies` of a scene make a `--turn` of time steps one after the other: what many steps on a part of a large
+//! scene, while it stays in the cache, can gain at the most. `--parts` prints what each part of a step takes. Peers on the same scenes: LIGGGHTS 49 ns (s1), 66 ns (s2), LAMMPS 136 ns a bond (s3).
 
 use cograin::lanes::Width;
 use cograin::scene::{Models, Scene, Source};
@@ -179,6 +180,10 @@ struct Options {
     laws: bool,
     /// The dense packing.
     packing: String,
+    /// How often the scene is there.
+    copies: usize,
+    /// Time steps of a copy before the next one's turn; all if 0.
+    turn: usize,
 }
 
 impl Options {
@@ -192,6 +197,8 @@ impl Options {
             parts: false,
             laws: false,
             packing: "models/loaded_beam/dense_20k.csv.gz".into(),
+            copies: 1,
+            turn: 0,
         };
         let mut arguments = std::env::args().skip(1);
         while let Some(argument) = arguments.next() {
@@ -204,6 +211,8 @@ impl Options {
                 "--parts" => options.parts = true,
                 "--laws" => options.laws = true,
                 "--packing" => options.packing = value(),
+                "--copies" => options.copies = value().parse().expect("a number of copies"),
+                "--turn" => options.turn = value().parse().expect("a number of time steps"),
                 name => options.name = name.into(),
             }
         }
@@ -213,16 +222,27 @@ impl Options {
     /// Runs one scene in one lane width and prints what it cost.
     #[allow(clippy::print_stdout, reason = "a benchmark prints")]
     fn run(&self, name: &str, scene: &Arc<Scene>, width: Width) {
-        let mut simulation = Simulation::new(scene.clone()).expect("the scene starts");
-        simulation.set_width(width);
-        let step = simulation.state().clock.step;
-        simulation.advance(20.0 * step).expect("it runs");
+        let mut simulations: Vec<_> = (0..self.copies)
+            .map(|_| {
+                let mut simulation = Simulation::new(scene.clone()).expect("the scene starts");
+                simulation.set_width(width);
+                simulation.advance(20.0 * simulation.state().clock.step).expect("it runs");
+                simulation
+            })
+            .collect();
+        let step = simulations[0].state().clock.step;
+        let turn = if self.turn == 0 { self.steps } else { self.turn };
         let (wall, user) = (Instant::now(), user_time());
-        simulation.advance(self.steps as f64 * step).expect("it runs");
+        for _ in 0..self.steps / turn {
+            for simulation in &mut simulations {
+                simulation.advance(turn as f64 * step).expect("it runs");
+            }
+        }
         let (wall, user) = (wall.elapsed().as_secs_f64(), user_time() - user);
+        let mut simulation = simulations.swap_remove(0);
         let bonds: usize = simulation.state().bonds.iter().map(|list| list.first.len()).sum();
         let (count, what) = if bonds > 0 { (bonds, "bonds") } else { (simulation.contact_count(), "contacts") };
-        let work = (self.steps * count) as f64 * 1e-9;
+        let work = (self.steps / turn * turn * count * self.copies) as f64 * 1e-9;
         println!(
             "{name:40} {:6}: {:5.2} ns user, {:5.2} ns wall; {count} {what}, {} lists, state {:016x}, energy {:.6e} J",
             format!("{width:?}"),

@@ -682,6 +682,47 @@ fn bonds_that_are_made_at_any_time_are_made_across_the_faces() {
 }
 
 #[test]
+fn a_bonded_lattice_has_the_moduli_of_its_bonds() {
+    // Between nearest neighbours, which an even strain of a lattice with a centre of symmetry moves evenly.
+    let (radius, [normal, tangential]) = (1e-3, [1e12, 4e11].map(|stiffness| stiffness * std::f64::consts::PI * 1e-6));
+    for (kind, edge, around, moduli) in [
+        ("sc", 2.0, 6, [normal, 0.0, 0.5 * tangential]),
+        (
+            "bcc",
+            4.0 / 3.0_f64.sqrt(),
+            8,
+            [
+                (2.0 * normal + 4.0 * tangential) / 3.0,
+                2.0 * (normal - tangential) / 3.0,
+                (2.0 * normal + tangential) / 3.0,
+            ],
+        ),
+        ("fcc", 8.0_f64.sqrt(), 12, [2.0 * (normal + tangential), normal - tangential, normal + tangential]),
+    ] {
+        for counts in [[1, 1, 1], [2, 3, 2]] {
+            let size = edge * radius;
+            let bond = "[bond.glue]\nbetween = [\"all\", \"all\"]\ncreate_distance = 2.1e-3\n\
+                        normal_stiffness = 1e12\ntangential_stiffness = 4e11\n";
+            let text = lattice(kind, counts, size, radius, &format!("{DRIVEN}\n{bond}"));
+            let contacts = format!("[pair.glass.glass]\n{}\n{}\n", SMOOTH[1], SMOOTH[0]);
+            let mut simulation = start(&text.replace(&contacts, "").replace("1e-5", "1e-7"));
+            let particles = sites(kind).len() * counts.iter().product::<usize>();
+            assert_eq!(simulation.bonds().len(), particles * around / 2);
+            let strain = [1e-6, -4e-7, 7e-7, 9e-7, -1.1e-6, 5e-7];
+            (0..6).for_each(|component| simulation.set_strain(component, strain[component]));
+            simulation.advance(2e-6).unwrap();
+            let [along, across, shear] = moduli.map(|modulus| modulus / size);
+            let sum = strain[0] + strain[1] + strain[2];
+            let expected = [0, 1, 2, 3, 4, 5].map(|component| match component {
+                0..3 => across * sum + (along - across) * strain[component],
+                _ => shear * strain[component],
+            });
+            assert_near(&simulation.cell_stress(), &expected, 1e-5, &format!("{kind} {counts:?}"));
+        }
+    }
+}
+
+#[test]
 fn lengths_scaled_by_a_power_of_two_give_the_same_bits() {
     let run = |scale: f64| {
         let mut list = gas(40, 0.1, 1.0);

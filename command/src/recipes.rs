@@ -39,6 +39,9 @@ recipes! {
     "triaxial" "a cube of sand between six servos":
         "scene.toml" "../../models/triaxial/scene.toml",
         "input.csv" "../../models/triaxial/input.csv";
+    "element_test" "sand in a cell that repeats: compression, triaxial test, simple shear":
+        "scene.toml" "../recipes/element_test/scene.toml",
+        "couple.py" "../recipes/element_test/couple.py";
     "silo" "a hopper with a gate; grains are fed in and run out":
         "scene.toml" "../../models/hopper/scene.toml",
         "couple.py" "../recipes/silo/couple.py";
@@ -60,6 +63,8 @@ recipes! {
         "couple.py" "../recipes/loaded_beam/couple.py";
     "clumps" "ballast: stones of four spheres fall into a box":
         "scene.toml" "../recipes/clumps/scene.toml";
+    "tablets" "tablets of seven spheres in a drum that turns":
+        "scene.toml" "../recipes/tablets/scene.toml";
 }
 
 /// `cograin new`

@@ -4,10 +4,11 @@ use crate::ground::{Place, cograin, complaint};
 use std::fs;
 
 /// Ends that the recipes are run to here \[s\]: some time steps of each.
-const ENDS: [(&str, &str); 10] = [
+const ENDS: [(&str, &str); 12] = [
     ("drop", "1e-3"),
     ("oedometer", "2e-4"),
     ("triaxial", "4e-5"),
+    ("element_test", "1e-4"),
     ("silo", "4e-4"),
     ("drum", "4e-4"),
     ("beam", "1e-4"),
@@ -15,6 +16,7 @@ const ENDS: [(&str, &str); 10] = [
     ("plate", "5e-4"),
     ("loaded_beam", "4e-4"),
     ("clumps", "4e-4"),
+    ("tablets", "4e-4"),
 ];
 
 /// Names of the recipes, as the program lists them.
