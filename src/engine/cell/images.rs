@@ -302,7 +302,7 @@ impl Lists {
 
     /// Writes the new rows into the lists. Contacts whose image is not there any more are out of reach.
     fn rewrite(&self, state: &mut State, cell: &CellState, row: &[u32]) {
-        let own = row.len() as u32;
+        let own = (state.particles.len() - cell.originals.len()) as u32;
         let slots = |pair: &Pair| {
             let mut slots = pair.ids.map(|id| row[id as usize]);
             if let Some((place, image)) = pair.image(cell, row) {

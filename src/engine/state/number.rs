@@ -105,7 +105,7 @@ impl Particles {
     /// Removes particles (slots).
     fn remove(&mut self, goes: &[bool]) {
         let own = self.own();
-        for slot in (0..goes.len()).filter(|&slot| goes[slot]) {
+        for slot in (0..goes.len()).filter(|&slot| goes[slot] && self.owner[slot] != IMAGE) {
             let index = self.id[slot] as usize;
             self.slot[index] = GONE;
             if index >= own {
