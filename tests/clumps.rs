@@ -1,9 +1,12 @@
 //! Clumps: rigid bodies of several spheres, against closed forms, against groups, and their books and bits.
 
-use crate::support::{read, start};
+use crate::support::{read, read_with, start};
 use cograin::interface::{Derivatives, Interface, Value};
 use cograin::lanes::Width;
+use cograin::quantity::BoundaryIndex;
 use cograin::simulation::Simulation;
+use cograin::statics::stiffness;
+use cograin_sparse::factorise;
 use std::sync::Arc;
 
 /// A material and a law without friction and damping.
@@ -573,6 +576,117 @@ fn a_derivative_is_the_difference_of_two_steps_and_leaves_no_trace() {
 }
 
 #[test]
+fn a_clump_between_two_plates_is_as_stiff_as_its_two_contacts() {
+    for spheres in [1, 3] {
+        let list: Vec<_> = (0..spheres)
+            .map(|k| format!("{{ position = [0.0, 0.0, {:?}], radius = 0.01 }}", 0.015 * f64::from(k)))
+            .collect();
+        let (middle, top) = (0.0075 * f64::from(spheres - 1), 0.015 * f64::from(spheres - 1) + 0.01 - 1e-5);
+        let simulation = start(&format!(
+            r#"
+[run]
+step = 1.0e-7
+{}
+[contact.touch.tangential.history]
+[clump.post]
+spheres = [{}]
+[particles.p]
+material = "a"
+clump = "post"
+list = [{{ position = [0.0, 0.0, {middle:?}] }}]
+[boundary.lid]
+plane = {{ point = [0.0, 0.0, {top:?}], normal = [0.0, 0.0, -1.0] }}
+material = "a"
+[boundary.floor]
+plane = {{ point = [0.0, 0.0, -0.00999], normal = [0.0, 0.0, 1.0] }}
+material = "a"
+motion = {{ driven = ["z"] }}
+"#,
+            ELASTIC.replace("restitution = 1.0", "restitution = 1.0\nfriction = 0.5"),
+            list.join(", ")
+        ));
+        let found = stiffness(&simulation, &[BoundaryIndex(1)], Some(factorise)).expect("a stiffness");
+        // Each contact has dF/dδ = 2 E* √(R δ), and both are in a row.
+        let contact = 2.0 * 1.0e9 / (2.0 * (1.0 - 0.09)) * (0.01_f64 * 1e-5).sqrt();
+        let stiff = found.boundaries[0].matrix[2][2];
+        assert!((stiff / (0.5 * contact) - 1.0).abs() < 1e-6, "{stiff} N/m, {} expected", 0.5 * contact);
+        assert_eq!((found.freedoms, found.rattlers.len()), (6, 0));
+    }
+}
+
+#[test]
+fn a_bed_of_clumps_is_as_stiff_as_it_is_when_time_steps_have_settled() {
+    let mut list = Vec::new();
+    for (x, y, z) in (0..2).flat_map(|x| (0..4).flat_map(move |y| (0..3).map(move |z| (x, y, z)))) {
+        let place = [0.009995 + 0.03998 * f64::from(x), 0.01999 * f64::from(y), 0.009995 + 0.01999 * f64::from(z)];
+        list.push(format!("{{ position = {place:?} }}"));
+    }
+    let plane = |name: &str, point: [f64; 3], normal: [f64; 3]| {
+        format!("[boundary.{name}]\nplane = {{ point = {point:?}, normal = {normal:?} }}\nmaterial = \"a\"\n")
+    };
+    let planes = [
+        plane("west", [-0.009995, 0.0, 0.0], [1.0, 0.0, 0.0]),
+        plane("east", [0.069965, 0.0, 0.0], [-1.0, 0.0, 0.0]),
+        plane("south", [0.0, -0.009995, 0.0], [0.0, 1.0, 0.0]),
+        plane("north", [0.0, 0.069965, 0.0], [0.0, -1.0, 0.0]),
+        plane("lid", [0.0, 0.0, 0.05997], [0.0, 0.0, -1.0]),
+        plane("floor", [0.0; 3], [0.0, 0.0, 1.0]),
+    ];
+    let mut simulation = start(&format!(
+        "gravity = [0.0, 0.0, -9.81]\n[run]\nstep = 5.0e-6\n{}\n[contact.touch.tangential.history]\n[clump.pair]\nspheres = [{{ position = \
+         [0.0, 0.0, 0.0], radius = 0.01 }}, {{ position = [0.01999, 0.0, 0.0], radius = 0.01 }}]\n[particles.bed]\nmaterial = \"a\"\nclump = \
+         \"pair\"\nlist = [{}]\n[damping.all]\nlinear = 0.3\nangular = 0.3\ngravity_damped = true\n{}motion = {{ driven = [\"x\", \"z\"] }}\n",
+        ELASTIC.replace("1.0e9", "5.0e7").replace("restitution = 1.0", "restitution = 0.5\nfriction = 0.5"),
+        list.join(", "),
+        planes.concat()
+    ));
+    let floor = BoundaryIndex(5);
+    let to = |simulation: &mut Simulation, axis: usize, way: f64, time: f64| {
+        simulation.set_input(floor, axis, way);
+        simulation.advance(0.02).expect("it runs");
+        simulation.advance(time).expect("it runs");
+        simulation.state().boundaries[5].force[2]
+    };
+    // Pressed and sheared a little, and left alone.
+    to(&mut simulation, 2, 2.0e-6, 0.05);
+    to(&mut simulation, 0, 1.0e-6, 0.25);
+    let found = stiffness(&simulation, &[floor], Some(factorise)).expect("a stiffness").boundaries[0].matrix[2][2];
+    let state = simulation.state().clone();
+    let there = to(&mut simulation, 2, 2.0e-6 + 1.0e-9, 0.15);
+    simulation.restore(&state).expect("its own state");
+    let back = to(&mut simulation, 2, 2.0e-6 - 1.0e-9, 0.15);
+    let expected = (back - there) / 2.0e-9;
+    assert!((found / expected - 1.0).abs() < 1e-5, "{found} N/m, {expected} N/m when it has settled");
+}
+
+#[test]
+fn spheres_from_a_file_are_those_of_the_table() {
+    let scene = |clump: &str, file: &str| {
+        let text = format!(
+            "[material.a]\ndensity = 1.0\n[clump.b]\n{clump}\n[particles.p]\nmaterial = \"a\"\nclump = \"b\"\nlist = [{{ position = [0.0, 0.0, 0.0] }}]"
+        );
+        read_with(&text, [("b.csv".to_owned(), file.as_bytes().to_vec())].into())
+    };
+    let file = "x, y, z, radius\n0.0, 0.0, 0.0, 0.1\n0.3, 0.1, 0.0, 0.08\n0.0, 0.5, 0.2, 0.12\n";
+    let filed = scene("file = \"b.csv\"", file).expect("a scene");
+    let written = scene(TOP.trim().trim_start_matches("[clump.top]"), "").expect("a scene");
+    assert_eq!(filed.clump_shapes, written.clump_shapes);
+    assert_eq!(filed.particles, written.particles);
+    for (clump, file, expected) in [
+        ("file = \"c.csv\"", file, "c.csv"),
+        ("", file, "[clump.b] spheres: missing"),
+        ("file = \"b.csv\"", "x, y, z\n0.0, 0.0, 0.0\n", "radius"),
+        ("file = \"b.csv\"", "x, y, z, radius\n0.0, 0.0, 0.0, -0.1\n", "b.csv, line 2"),
+        ("file = \"b.csv\"", "x, y, z, radius, vx\n0.0, 0.0, 0.0, 0.1, 1.0\n", "a clump moves as a whole"),
+        ("file = \"b.csv\"", "x, y, z, radius\n", "expected 1 to 256 spheres, found 0"),
+        ("file = \"b.csv\"\nspheres = [{ position = [0.0, 0.0, 0.0], radius = 1.0 }]", file, "found spheres and file"),
+    ] {
+        let found = scene(clump, file).expect_err(expected);
+        assert!(found.contains(expected), "{found}\n{expected} expected");
+    }
+}
+
+#[test]
 fn what_clumps_cannot_be_is_refused_in_words() {
     let scene = |clump: &str, set: &str, more: &str| {
         let text = format!(
@@ -602,10 +716,6 @@ fn what_clumps_cannot_be_is_refused_in_words() {
         ),
         (scene(two, "orientation = \"any\"\nlist = []", ""), "\"random\" or \"principal_axes\", found \"any\""),
         (scene(&format!("{two}\nmass = 1.0"), &format!("density = 2.0\n{one}"), ""), "[clump.b] has a mass"),
-        (
-            scene(two, one, "[cell]\nedges = [[9.0, 0.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, 9.0]]"),
-            "expected none beside [clump]",
-        ),
         (scene(two, one, "[boundary.g]\nparticles = { set = \"p\" }\nmotion = \"fixed\""), "cannot move as a group"),
     ] {
         assert!(found.contains(expected), "{found}\n{expected} expected");

@@ -14,6 +14,8 @@ mod books;
 mod cell;
 mod cell_boundaries;
 mod cell_exchange;
+mod clump_cell;
+mod clump_exchange;
 mod clumps;
 mod coefficients;
 mod derivatives;

@@ -390,8 +390,8 @@ fn lies_along(cell: &Cell, normal: [f64; 3]) -> bool {
 pub(in crate::scene) fn repeat_surfaces(scene: &mut SceneDraft) -> Vec<Objection> {
     let Some(cell) = scene.cell.filter(|_| objections(scene).is_empty()) else { return Vec::new() };
     let largest = scene.radii().fold(0.0, f64::max);
-    // Lists reach by the skin and what a law holds beyond touch, and particles may be out of the cell by the skin.
-    let reach = 2.0 * (largest + scene.run.skin.unwrap_or(0.0).max(largest));
+    // Lists reach by the skin and what a law holds beyond touch; particles may be out of the cell by the skin, spheres by their clump.
+    let reach = 2.0 * (largest + scene.run.skin.unwrap_or(0.0).max(largest)) + scene.widest_clump();
     let mut found = Vec::new();
     for boundary in scene.boundaries.iter_mut().filter(|boundary| boundary.shape.material().is_some()) {
         let copies = copies(boundary, &cell.lattice, reach);

@@ -29,9 +29,7 @@ impl SceneDraft {
                 return Some((what, "damping.viscous, or none"));
             }
         }
-        let clump = self.clumps.first()?;
-        let name = &self.clump_shapes[clump.shape as usize].name;
-        Some((format!("[clump.{name}]"), "a scene without clumps"))
+        None
     }
 
     /// What speaks against the stiffness that is asked for as an output: what was found, and what was expected.

@@ -137,9 +137,9 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
         let part = |centre: Vector| volume += region.shape.volume_of_sphere(centre - shift, radius);
         place.meets(position.into(), radius, part);
         if volume > 0.0 {
-            let mass = clumps::mass_of(scene, particles, slot) * (volume / sphere_volume(radius));
+            let mass = clumps::mass_of(scene, (particles, &state.clumps), slot) * (volume / sphere_volume(radius));
             content.solid +=
-                volume * state.clump(slot).map_or(1.0, |clump| fullness[scene.clumps[clump].shape as usize]);
+                volume * state.clump(slot).map_or(1.0, |clump| fullness[state.clumps.shape[clump] as usize]);
             content.mass += mass;
             for axis in 0..3 {
                 content.velocity[axis] += mass * particles.velocity[slot][axis];

@@ -85,11 +85,15 @@ fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
         momentum += Vector::from(particles.velocity[slot]) * own;
         force += Vector::from(particles.force[slot]);
     }
-    let (clumps, there) = (&simulation.state().clumps, &scene.clumps);
-    for (place_of, _) in there.iter().enumerate().filter(|(_, it)| scene.particles[it.first as usize].set == set) {
+    let clumps = &simulation.state().clumps;
+    let of_set = |clump: &usize| {
+        let first = scene.particles.get(clumps.spheres_of(*clump)[0] as usize);
+        first.is_some_and(|first| first.set == set)
+    };
+    for place_of in (0..clumps.len()).filter(of_set) {
         let own = clumps.velocity[place_of][3];
         mass += own;
-        place += Vector::from(clumps.position[place_of]) * own;
+        place += Vector::from(simulation.state().unwrapped_clump(place_of)) * own;
         momentum += Vector::from(clumps.velocity[place_of]) * own;
         force += Vector::from(clumps.force[place_of]);
     }

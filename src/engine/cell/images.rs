@@ -10,7 +10,7 @@
 use crate::base::geometry::Lattice;
 use crate::base::geometry::lattice::{brought_back, counted_anew, is_behind};
 use crate::engine::state::cell::CellState;
-use crate::engine::state::{IMAGE, Particles, State};
+use crate::engine::state::{IMAGE, Particles, Row, State};
 use crate::scene::{Bond, Scene, Shape};
 use std::collections::BTreeMap;
 
@@ -26,6 +26,8 @@ pub(crate) struct Images {
     largest: f64,
     /// The largest distance of centres that are to be bonded \[m\].
     bonded: f64,
+    /// How far the centre of a sphere may stand outside of the cell, in which the mass centre of its clump is \[m\].
+    outside: f64,
 }
 
 /// A particle and how its images are displaced.
@@ -46,6 +48,7 @@ impl Images {
             lattice,
             largest: scene.radii().fold(0.0, f64::max),
             bonded: scene.bonds.iter().map(distance).fold(0.0, f64::max),
+            outside: scene.widest_clump(),
         })
     }
 
@@ -125,17 +128,29 @@ impl Images {
         let stays: Vec<bool> = particles.owner.iter().map(|&owner| owner != IMAGE).collect();
         particles.keep_rows(|slot| stays[slot]);
         let mut row = vec![0; particles.slot.len()];
+        let mut bring = |(id, place): (u32, &mut Row), away: [i64; 3]| {
+            let shift = lattice.displacement(away);
+            for axis in 0..3 {
+                place[axis] -= shift[axis];
+                cell.edges_away[id as usize][axis] += away[axis];
+            }
+        };
+        let away_of = |[x, y, z, _]: Row| Some(lattice.edges_away([x, y, z])).filter(|away| *away != [0; 3]);
         for (slot, (&id, place)) in particles.id.iter().zip(&mut particles.position).enumerate() {
             row[id as usize] = slot as u32;
-            let [x, y, z, _] = *place;
-            let away = lattice.edges_away([x, y, z]);
-            if away != [0; 3] {
-                let shift = lattice.displacement(away);
-                for axis in 0..3 {
-                    place[axis] -= shift[axis];
-                    cell.edges_away[id as usize][axis] += away[axis];
-                }
+            let is_loose = particles.owner[slot] as usize <= state.boundaries.len();
+            if let Some(away) = away_of(*place).filter(|_| is_loose) {
+                bring((id, place), away);
             }
+        }
+        // A clump is brought back as a whole, by its mass centre: spheres of one stay beside each other.
+        for clump in 0..state.clumps.len() {
+            let Some(away) = away_of(state.clumps.position[clump]) else { continue };
+            for &sphere in state.clumps.spheres_of(clump) {
+                bring((sphere, &mut particles.position[row[sphere as usize] as usize]), away);
+            }
+            let shift = lattice.displacement(away);
+            (0..3).for_each(|axis| state.clumps.position[clump][axis] -= shift[axis]);
         }
         row
     }
@@ -144,7 +159,7 @@ impl Images {
     fn near(&self, state: &State, lattice: &Lattice, skin: f64) -> Vec<Image> {
         let mut images = Vec::new();
         for (slot, &[x, y, z, radius]) in state.particles.position.iter().enumerate() {
-            let depth = (radius + self.largest).max(self.bonded) + skin;
+            let depth = (radius + self.largest).max(self.bonded) + skin + self.outside;
             lattice.images([x, y, z], depth * HAIR, &mut |shift| images.push((slot as u32, shift)));
         }
         images

@@ -21,13 +21,14 @@ pub use stress::Fabric;
 
 use crate::base::number::Row;
 use crate::base::threads::{CHUNK, Context};
+use crate::engine::clumps::{self, ClumpBodies};
 use crate::engine::integration::Rows;
 use crate::engine::run_error::RunError;
 use crate::engine::state::cell::{CellState, Square, Strains};
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Ledger, State, StateFault, demand};
 use crate::laws::motion::{InputCourse, Progress};
-use crate::scene::{CellMotion, Scene};
+use crate::scene::{CellMotion, ClumpShape, Scene};
 use deformation::{Change, product, times};
 use images::Images;
 
@@ -42,6 +43,11 @@ pub(crate) struct Cell {
     motion: [CellMotion; 6],
     /// Radius of the largest particle \[m\].
     largest: f64,
+    /// The largest distance of a surface from the point that the cell carries along: that radius or, of a clump, one about the mass centre
+    /// \[m\].
+    reach: f64,
+    /// Volume of each shape of clumps over the sum of those of its spheres.
+    fullness: Vec<f64>,
     /// The deformation of the present time step.
     change: Option<Change>,
     /// The other velocities: with the streaming motion while time steps are at their ends, without it while forces are evaluated.
@@ -54,7 +60,9 @@ impl Cell {
         let images = Images::of(scene)?;
         let motion = scene.cell.as_ref()?.motion;
         let largest = scene.radii().fold(0.0, f64::max);
-        Some(Self { images, motion, largest, change: None, other: Vec::new() })
+        let reach = clumps::farthest(&ClumpBodies::begun(scene)) + largest;
+        let fullness = scene.clump_shapes.iter().map(ClumpShape::fullness).collect();
+        Some(Self { images, motion, largest, reach, fullness, change: None, other: Vec::new() })
     }
 
     /// The state of a scene's cell at time 0.
@@ -236,17 +244,15 @@ impl Cell {
 
     /// Gives passes the velocities that include the streaming motion.
     pub(crate) fn begin_evaluation(&mut self, state: &mut State) {
-        let State { cell: Some(cell), particles, .. } = state else { return };
+        let Some(cell) = &mut state.cell else { return };
         cell.virial = Square::default();
-        if !cell.streams() {
-            return;
-        }
+        let Some(cell) = state.cell.as_ref().filter(|cell| cell.streams()) else { return };
         self.other.clear();
-        self.other.extend(particles.velocity.iter().zip(&particles.position).map(|(velocity, position)| {
-            let [u, v, w] = cell.streaming_at(*position);
+        self.other.extend(state.particles.velocity.iter().enumerate().map(|(slot, velocity)| {
+            let [u, v, w] = cell.streaming_at(state.carried_point(slot));
             [velocity[0] + u, velocity[1] + v, velocity[2] + w, velocity[3]]
         }));
-        std::mem::swap(&mut self.other, &mut particles.velocity);
+        std::mem::swap(&mut self.other, &mut state.particles.velocity);
     }
 
     /// When passes of one kind are done: images hand on their loads, and velocities are again those without the streaming motion. Where
@@ -260,20 +266,24 @@ impl Cell {
             std::mem::swap(&mut self.other, &mut particles.velocity);
         }
         if is_last {
-            let (position, force) = (&particles.position, &particles.force);
+            let (here, origin) = (&*state, state.cell.as_ref().map_or([0.0; 3], |cell| cell.origin));
+            let (force, count) = (&here.particles.force, here.particles.len());
             let of_piece = |piece: usize| {
                 let mut sum = Square::default();
-                for slot in piece * CHUNK..((piece + 1) * CHUNK).min(position.len()) {
-                    let place = [0, 1, 2].map(|axis| position[slot][axis] - cell.origin[axis]);
+                for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
+                    let point = here.carried_point(slot);
+                    let place = [0, 1, 2].map(|axis| point[axis] - origin[axis]);
                     add_dyad(&mut sum, [force[slot][0], force[slot][1], force[slot][2]], place);
                 }
                 sum
             };
-            let sum = context.fold(position.len().div_ceil(CHUNK), of_piece, Square::default(), |mut sum, part| {
+            let sum = context.fold(count.div_ceil(CHUNK), of_piece, Square::default(), |mut sum, part| {
                 add(&mut sum, &part);
                 sum
             });
-            add(&mut cell.virial, &sum);
+            if let Some(cell) = &mut state.cell {
+                add(&mut cell.virial, &sum);
+            }
         }
     }
 
@@ -291,10 +301,15 @@ impl Cell {
         book(cell, &change, (-0.5, &virial, &change.of_end), step);
     }
 
+    /// The largest distance of a surface from the point that the cell carries along \[m\].
+    pub(crate) fn reach(&self) -> f64 {
+        self.reach
+    }
+
     /// The largest speed at which the deformation brings neighbours towards each other, as it is or is about to be \[m/s\].
     pub(crate) fn speed(&self, state: &State) -> f64 {
         let Some(cell) = &state.cell else { return 0.0 };
-        let near = 2.0 * self.largest + state.neighbours.skin;
+        let near = 2.0 * self.reach + state.neighbours.skin;
         let norm = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         near * norm(cell.gradient.as_flattened()).max(norm(&cell.rate))
     }
@@ -302,10 +317,15 @@ impl Cell {
 
 /// Strains a cell at rest, particles and all.
 fn strain_to(cell: &mut CellState, state: &mut State, after: Strains, change: &Change) {
-    for row in &mut state.particles.position {
-        let from = [0, 1, 2].map(|axis| row[axis] - cell.origin[axis]);
-        let to = times(&change.forward, from);
-        (0..3).for_each(|axis| row[axis] = cell.origin[axis] + to[axis]);
+    let carry = |row: &mut Row, point: Row| {
+        let to = times(&change.forward, [0, 1, 2].map(|axis| point[axis] - cell.origin[axis]));
+        (0..3).for_each(|axis| row[axis] = (row[axis] - point[axis]) + (cell.origin[axis] + to[axis]));
+    };
+    let points: Vec<Row> = (0..state.particles.len()).map(|slot| state.carried_point(slot)).collect();
+    state.particles.position.iter_mut().zip(points).for_each(|(row, point)| carry(row, point));
+    for row in &mut state.clumps.position {
+        let point = *row;
+        carry(row, point);
     }
     cell.strain = after;
     cell.edges = deformation::edges(&cell.reference, &after);
@@ -334,37 +354,57 @@ fn book_streaming(ledger: &mut Ledger, work: f64) {
     ledger.turnover += work.abs();
 }
 
-/// Carries the particles along, after the drift. Returns −M \[J\] and what that added to the momentum
+/// Carries the particles and clumps along, after the drift. Returns −M \[J\] and what that added to the momentum
 /// \[N s\].
 fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, context: &Context) -> (Square, [f64; 3]) {
     let (rows, half) = (Rows::of(&mut state.particles), 0.5 * step);
     let is_none = change.is_none();
-    let of_piece = |piece: usize| {
-        let (mut sum, mut impulse) = (Square::default(), [0.0; 3]);
-        rows.each_free(piece, |body| {
-            let [u, v, w, mass] = *body.velocity;
-            let before = [u, v, w];
-            let after = if is_none { before } else { times(&change.backward, before) };
-            let mean = [0, 1, 2].map(|axis| 0.5 * mass * (after[axis] + before[axis]));
-            add_dyad(&mut sum, mean, after);
-            if is_none {
-                return;
-            }
-            let from = [0, 1, 2].map(|axis| body.position[axis] - half * before[axis] - origin[axis]);
-            let to = times(&change.forward, from);
-            for axis in 0..3 {
-                body.position[axis] = origin[axis] + to[axis] + half * after[axis];
-                body.velocity[axis] = after[axis];
-                impulse[axis] += mass * (after[axis] - before[axis]);
-            }
-        });
-        (sum, impulse)
+    let carry = |(sum, impulse): &mut (Square, [f64; 3]), position: &mut Row, velocity: &mut Row| {
+        let [u, v, w, mass] = *velocity;
+        let before = [u, v, w];
+        let after = if is_none { before } else { times(&change.backward, before) };
+        let mean = [0, 1, 2].map(|axis| 0.5 * mass * (after[axis] + before[axis]));
+        add_dyad(sum, mean, after);
+        if is_none {
+            return;
+        }
+        let from = [0, 1, 2].map(|axis| position[axis] - half * before[axis] - origin[axis]);
+        let to = times(&change.forward, from);
+        for axis in 0..3 {
+            position[axis] = origin[axis] + to[axis] + half * after[axis];
+            velocity[axis] = after[axis];
+            impulse[axis] += mass * (after[axis] - before[axis]);
+        }
     };
-    context.fold(rows.pieces(), of_piece, (Square::default(), [0.0; 3]), |(mut sum, mut impulse), (part, added)| {
+    let of_piece = |piece: usize| {
+        let mut sums = (Square::default(), [0.0; 3]);
+        rows.each_free(piece, |body| carry(&mut sums, body.position, body.velocity));
+        sums
+    };
+    let begin = (Square::default(), [0.0; 3]);
+    let mut sums = context.fold(rows.pieces(), of_piece, begin, |(mut sum, mut impulse), (part, added)| {
         add(&mut sum, &part);
         impulse.iter_mut().zip(added).for_each(|(sum, part)| *sum += part);
         (sum, impulse)
-    })
+    });
+    for clump in 0..state.clumps.len() {
+        let State { particles, clumps, .. } = &mut *state;
+        let before = [clumps.position[clump], clumps.velocity[clump]];
+        carry(&mut sums, &mut clumps.position[clump], &mut clumps.velocity[clump]);
+        if is_none {
+            continue;
+        }
+        // The spheres go with it and do not turn.
+        for &sphere in clumps.spheres_of(clump) {
+            let slot = particles.slot[sphere as usize] as usize;
+            let (position, velocity) = (&mut particles.position[slot], &mut particles.velocity[slot]);
+            for axis in 0..3 {
+                position[axis] += clumps.position[clump][axis] - before[0][axis];
+                velocity[axis] += clumps.velocity[clump][axis] - before[1][axis];
+            }
+        }
+    }
+    sums
 }
 
 /// Adds a matrix to a sum.

@@ -45,8 +45,8 @@ impl Cell {
         let Some(cell) = &state.cell else { return Strains::default() };
         let mut kinetic = Square::default();
         let particles = &state.particles;
-        for slot in particles.slots() {
-            let [u, v, w, mass] = particles.velocity[slot];
+        let loose = particles.slots().filter(|&slot| state.clump(slot).is_none()).map(|slot| &particles.velocity[slot]);
+        for &[u, v, w, mass] in loose.chain(&state.clumps.velocity) {
             super::add_dyad(&mut kinetic, [mass * u, mass * v, mass * w], [u, v, w]);
         }
         let volume = self.volume(state);
@@ -58,10 +58,13 @@ impl Cell {
         state.cell.as_ref().map_or(0.0, |cell| self.images.lattice(cell).volume())
     }
 
-    /// Part of the volume that no particle fills; what they overlap counts twice.
+    /// Part of the volume that no particle fills; what they overlap counts twice, but not within a clump.
     pub(crate) fn porosity(&self, state: &State) -> f64 {
-        let rows = state.particles.position.iter().zip(&state.particles.owner).filter(|(_, owner)| **owner != IMAGE);
-        let solid: f64 = rows.map(|(row, _)| 4.0 / 3.0 * std::f64::consts::PI * row[3] * row[3] * row[3]).sum();
+        let rows =
+            state.particles.position.iter().enumerate().filter(|(slot, _)| state.particles.owner[*slot] != IMAGE);
+        let full = |slot: usize| state.clump(slot).map_or(1.0, |it| self.fullness[state.clumps.shape[it] as usize]);
+        let volume = |row: &[f64; 4]| 4.0 / 3.0 * std::f64::consts::PI * row[3] * row[3] * row[3];
+        let solid: f64 = rows.map(|(slot, row)| full(slot) * volume(row)).sum();
         1.0 - solid / self.volume(state)
     }
 
@@ -74,7 +77,7 @@ impl Cell {
                 &SearchLimits::default(),
                 &mut |Link { first, second, normal, stiffness, .. }| {
                     let Some(second) = second else { return };
-                    let [a, b] = [first, second].map(|slot| Vector::from(state.particles.position[slot as usize]));
+                    let [a, b] = [first, second].map(|slot| Vector::from(state.carried_point(slot as usize)));
                     let (branch, normal) = ((a - b).to_array(), normal.to_array());
                     for (sum, [row, column]) in sums.iter_mut().zip(STRAIN_PLACES) {
                         let mut unit = Square::default();

@@ -1,6 +1,7 @@
 //! Energies of clumps, and the entries of the energy books for them.
 
-use super::ClumpBodies;
+use super::loads::{applied, of_spheres};
+use super::motion_after;
 use crate::base::number::Vector;
 use crate::engine::integration::{Fields, Load};
 use crate::engine::state::ledger::Source;
@@ -17,22 +18,21 @@ pub(crate) fn kinetic(clumps: &Clumps) -> f64 {
 }
 
 /// Notes the loads on the spheres of clumps so far, of which the last are of this kind.
-pub(crate) fn note_loads(bodies: Option<&ClumpBodies>, state: &mut State, source: Source) {
+pub(crate) fn note_loads(state: &mut State, source: Source) {
     let State { particles, clumps, ledger: Some(ledger), .. } = state else { return };
-    let Some(bodies) = bodies else { return };
     let of = |clump: usize| {
-        let [force, moment] = bodies.of_spheres(clump, Vector::from(clumps.position[clump]), particles);
+        let [force, moment] = of_spheres(clumps, clump, particles);
         [force.x, force.y, force.z, moment.x, moment.y, moment.z]
     };
     let on_clumps = &mut ledger.on_clumps[source as usize];
     on_clumps.clear();
-    on_clumps.extend((0..bodies.count()).map(of));
+    on_clumps.extend((0..clumps.len()).map(of));
 }
 
 /// Mean of the motion of a clump before and after the half kick that is about to be made, times its length \[m, rad\].
-fn way(bodies: &ClumpBodies, clumps: &Clumps, clump: usize, step: f64) -> [Vector; 2] {
+fn way(clumps: &Clumps, clump: usize, step: f64) -> [Vector; 2] {
     let before = [Vector::from(clumps.velocity[clump]), Vector::from(clumps.angular_velocity[clump])];
-    let after = bodies.motion_after(clumps, clump, step);
+    let after = motion_after(clumps, clump, step);
     [0, 1].map(|part| (before[part] + after[part]) * (0.25 * step))
 }
 
@@ -42,20 +42,22 @@ fn work(load: Load, way: [Vector; 2]) -> f64 {
 }
 
 /// Work of weight, applied forces and damping on a clump.
-fn of_fields((bodies, clump): (&ClumpBodies, usize), state: &State, fields: &Fields, way: [Vector; 2]) -> [f64; 3] {
+fn of_fields(state: &State, clump: usize, fields: &Fields, way: [Vector; 2]) -> [f64; 3] {
     let (clumps, particles) = (&state.clumps, &state.particles);
     let weight = [Vector::from(fields.weight(clumps.velocity[clump][3])), Vector::zero()];
-    let applied = bodies.applied(clump, Vector::from(clumps.position[clump]), (fields, particles));
+    let applied = applied(clumps, clump, (fields, particles));
     let braking = clumps.braking.get(clump).map_or([Vector::zero(); 2], |load: &[Row; 2]| load.map(Vector::from));
     [weight, applied, braking].map(|load| work(load, way))
 }
 
 /// Books what forces do to clumps in the half kick that is about to be made.
-pub(crate) fn book_work(bodies: Option<&ClumpBodies>, state: &mut State, fields: &Fields, step: f64) {
-    let Some(bodies) = bodies else { return };
+pub(crate) fn book_work(state: &mut State, fields: &Fields, step: f64) {
+    if state.clumps.is_empty() {
+        return;
+    }
     let Some(mut ledger) = state.ledger.take() else { return };
-    for clump in 0..bodies.count() {
-        let way = way(bodies, &state.clumps, clump, step);
+    for clump in 0..state.clumps.len() {
+        let way = way(&state.clumps, clump, step);
         let mut works = [0.0; Source::COUNT];
         let mut before = 0.0;
         for (work_of, loads) in works.iter_mut().zip(&ledger.on_clumps) {
@@ -64,7 +66,7 @@ pub(crate) fn book_work(bodies: Option<&ClumpBodies>, state: &mut State, fields:
             *work_of = so_far - before;
             before = so_far;
         }
-        let [weight, applied, braking] = of_fields((bodies, clump), state, fields, way);
+        let [weight, applied, braking] = of_fields(state, clump, fields, way);
         works[Source::Gravity as usize] = weight;
         works[Source::Applied as usize] = applied;
         works[Source::Damping as usize] = braking;
@@ -76,14 +78,15 @@ pub(crate) fn book_work(bodies: Option<&ClumpBodies>, state: &mut State, fields:
     state.ledger = Some(ledger);
 }
 
-/// Books what the outside and global damping do to clumps in the half kick that is about to be made.
-pub(crate) fn book_losses(bodies: Option<&ClumpBodies>, state: &mut State, fields: &Fields, step: f64) {
-    let Some(bodies) = bodies else { return };
+/// Books what global damping takes from clumps in the half kick that is about to be made.
+pub(crate) fn book_losses(state: &mut State, fields: &Fields, step: f64) {
+    if state.clumps.is_empty() {
+        return;
+    }
     let Some(mut losses) = state.losses.take() else { return };
-    for clump in 0..bodies.count() {
-        let way = way(bodies, &state.clumps, clump, step);
-        let [weight, applied, braking] = of_fields((bodies, clump), state, fields, way);
-        losses.given_to_bodies += weight + applied;
+    for clump in 0..state.clumps.len() {
+        let way = way(&state.clumps, clump, step);
+        let [_, _, braking] = of_fields(state, clump, fields, way);
         losses.add(Loss::GlobalDamping, -braking);
     }
     state.losses = Some(losses);

@@ -10,7 +10,7 @@
 //!
 //! Functions, not closures: what is not inlined into a kernel is compiled without its registers.
 
-use super::ClumpBodies;
+use super::{ClumpBodies, piece, pieces};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::{self, Kernel, Lane, Shared, vector};
 use crate::base::number::{Number, Vector, larger};
@@ -41,31 +41,30 @@ impl ClumpBodies {
 
     /// Makes half a kick of a step of this length \[s\], and the drift if it is the first half.
     fn sweep(&self, state: &mut State, (step, drifts): (f64, bool), context: &Context) -> f64 {
-        let rows = Rows::of(&mut state.clumps);
-        let (spheres, slots) = (SphereRows::of(&mut state.particles), &state.particles.slot);
-        let of_piece = |piece: usize| {
-            let mut fastest = 0.0;
-            let kick = HalfKick { bodies: self, rows, spheres, slots, piece, step, drifts, fastest: &mut fastest };
+        let State { clumps, particles, .. } = state;
+        let (rows, members) = Rows::of(clumps);
+        let (spheres, slots) = (SphereRows::of(particles), &particles.slot);
+        let of_piece = |number: usize| {
+            let (clumps, mut fastest) = (piece(number, members.count()), 0.0);
+            let kick =
+                HalfKick { bodies: self, rows, members, spheres, slots, clumps, step, drifts, fastest: &mut fastest };
             lanes::run(context.width, kick);
             fastest
         };
-        context.fold(self.pieces(), of_piece, 0.0, larger)
+        context.fold(pieces(members.count()), of_piece, 0.0, larger)
     }
 
     /// Puts the spheres where their clumps are.
-    pub(crate) fn place(&self, state: &mut State, context: &Context) {
-        let rows = Rows::of(&mut state.clumps);
-        let (spheres, slots) = (SphereRows::of(&mut state.particles), &state.particles.slot);
-        context.each(self.pieces(), |piece| {
-            for clump in self.piece(piece) {
-                self.put(clump, rows, spheres, slots);
-            }
-        });
+    pub(crate) fn place(&self, state: &mut State) {
+        let State { clumps, particles, .. } = state;
+        let (rows, members) = Rows::of(clumps);
+        let (spheres, slots) = (SphereRows::of(particles), &particles.slot);
+        (0..members.count()).for_each(|clump| self.put(clump, (rows, members), spheres, slots));
     }
 
     /// Puts the spheres of a clump where they belong, and gives them its motion.
     #[inline(always)]
-    fn put(&self, clump: usize, rows: Rows, spheres: SphereRows, slots: &[u32]) {
+    fn put(&self, clump: usize, (rows, members): (Rows, Members), spheres: SphereRows, slots: &[u32]) {
         // SAFETY: each clump is worked on by one thread.
         let (position, velocity, turn, spin) = unsafe {
             let turn = Quaternion::from_row(*rows.orientation.at(clump));
@@ -73,12 +72,11 @@ impl ClumpBodies {
         };
         let ([ex, ey, ez], spin) = (axes(turn), Vector::of_row(spin));
         let (centre, velocity) = (Vector::of_row(position), Vector::of_row(velocity));
-        let (first, arms) = self.spheres(clump);
-        let turned =
-            (spheres.orientation.length() > 0).then(|| turn * Quaternion::from_row(self.begun[clump]).conjugate());
-        for (sphere, arm) in arms.iter().enumerate() {
-            let slot = slots[first + sphere] as usize;
-            let arm = ex * arm[0] + ey * arm[1] + ez * arm[2];
+        let (shape, scale) = (members.shape[clump], members.scale[clump]);
+        let turned = (spheres.orientation.length() > 0).then(|| turn * self.frames[shape as usize]);
+        for (sphere, arm) in members.spheres_of(clump).iter().zip(self.arms(shape)) {
+            let slot = slots[*sphere as usize] as usize;
+            let arm = ex * (scale * arm[0]) + ey * (scale * arm[1]) + ez * (scale * arm[2]);
             // SAFETY: each sphere belongs to one clump.
             let (place, moving, turning) =
                 unsafe { (spheres.position.at(slot), spheres.velocity.at(slot), spheres.spin.at(slot)) };
@@ -91,24 +89,23 @@ impl ClumpBodies {
             }
         }
     }
+}
 
-    /// Gives the spheres of a clump its motion where they are.
-    #[inline(always)]
-    fn give_motion(&self, clump: usize, rows: Rows, spheres: SphereRows, slots: &[u32]) {
-        // SAFETY: each clump is worked on by one thread.
-        let (position, velocity, spin) =
-            unsafe { (*rows.position.at(clump), *rows.velocity.at(clump), *rows.spin.at(clump)) };
-        let (centre, velocity, spin) = (Vector::of_row(position), Vector::of_row(velocity), Vector::of_row(spin));
-        let (first, arms) = self.spheres(clump);
-        for sphere in 0..arms.len() {
-            let slot = slots[first + sphere] as usize;
-            // SAFETY: each sphere belongs to one clump.
-            let (place, moving, turning) =
-                unsafe { (spheres.position.at(slot), spheres.velocity.at(slot), spheres.spin.at(slot)) };
-            let arm = Vector::of_row(*place) - centre;
-            *moving = (velocity + spin.cross(arm)).row_with(moving[3]);
-            *turning = spin.row_with(turning[3]);
-        }
+/// Gives the spheres of a clump its motion where they are.
+#[inline(always)]
+fn give_motion(clump: usize, (rows, members): (Rows, Members), spheres: SphereRows, slots: &[u32]) {
+    // SAFETY: each clump is worked on by one thread.
+    let (position, velocity, spin) =
+        unsafe { (*rows.position.at(clump), *rows.velocity.at(clump), *rows.spin.at(clump)) };
+    let (centre, velocity, spin) = (Vector::of_row(position), Vector::of_row(velocity), Vector::of_row(spin));
+    for sphere in members.spheres_of(clump) {
+        let slot = slots[*sphere as usize] as usize;
+        // SAFETY: each sphere belongs to one clump.
+        let (place, moving, turning) =
+            unsafe { (spheres.position.at(slot), spheres.velocity.at(slot), spheres.spin.at(slot)) };
+        let arm = Vector::of_row(*place) - centre;
+        *moving = (velocity + spin.cross(arm)).row_with(moving[3]);
+        *turning = spin.row_with(turning[3]);
     }
 }
 
@@ -157,10 +154,37 @@ struct Rows {
     moment: Shared<Row>,
 }
 
+/// What the steps only read: who belongs to which clump.
+#[derive(Clone, Copy)]
+struct Members<'a> {
+    /// Shapes.
+    shape: &'a [u32],
+    /// All lengths over those of the shapes.
+    scale: &'a [f64],
+    /// Indices of the spheres, clump by clump.
+    spheres: &'a [u32],
+    /// Where those of each clump end.
+    ends: &'a [u32],
+}
+
+impl<'a> Members<'a> {
+    /// How many clumps there are.
+    fn count(self) -> usize {
+        self.shape.len()
+    }
+
+    /// Indices of the spheres of a clump.
+    #[inline(always)]
+    fn spheres_of(self, clump: usize) -> &'a [u32] {
+        let start = if clump == 0 { 0 } else { self.ends[clump - 1] };
+        &self.spheres[start as usize..self.ends[clump] as usize]
+    }
+}
+
 impl Rows {
     /// Those of these clumps.
-    fn of(clumps: &mut Clumps) -> Self {
-        Self {
+    fn of(clumps: &mut Clumps) -> (Self, Members<'_>) {
+        let rows = Self {
             position: Shared::new(&mut clumps.position),
             velocity: Shared::new(&mut clumps.velocity),
             inertia: Shared::new(&mut clumps.moments),
@@ -169,7 +193,9 @@ impl Rows {
             spin: Shared::new(&mut clumps.angular_velocity),
             force: Shared::new(&mut clumps.force),
             moment: Shared::new(&mut clumps.moment),
-        }
+        };
+        let Clumps { shape, scale, spheres, ends, .. } = clumps;
+        (rows, Members { shape, scale, spheres, ends })
     }
 }
 
@@ -204,12 +230,14 @@ struct HalfKick<'a, 'b> {
     bodies: &'a ClumpBodies,
     /// The clumps.
     rows: Rows,
+    /// Their spheres.
+    members: Members<'a>,
     /// The particles.
     spheres: SphereRows,
     /// Slots of the particles.
     slots: &'a [u32],
-    /// Which piece.
-    piece: usize,
+    /// Which clumps.
+    clumps: std::ops::Range<usize>,
     /// The time step \[s\].
     step: f64,
     /// Whether it is the first half, which the drift follows.
@@ -222,15 +250,15 @@ impl HalfKick<'_, '_> {
     /// Makes it for as many clumps as there are lanes.
     #[inline(always)]
     fn several<N: Lane>(&mut self, first: usize) {
-        let Self { bodies, rows, spheres, slots, step, drifts, .. } = *self;
+        let Self { bodies, rows, members, spheres, slots, step, drifts, .. } = *self;
         // SAFETY: the clumps are there, and this thread alone works on them.
         let speeds = unsafe { if drifts { drift::<N>(rows, first, step) } else { kick::<N>(rows, first, step) } };
         for (lane, speed) in speeds.into_iter().enumerate().take(N::WIDTH) {
             *self.fastest = larger(*self.fastest, speed);
             if drifts {
-                bodies.put(first + lane, rows, spheres, slots);
+                bodies.put(first + lane, (rows, members), spheres, slots);
             } else {
-                bodies.give_motion(first + lane, rows, spheres, slots);
+                give_motion(first + lane, (rows, members), spheres, slots);
             }
         }
     }
@@ -239,7 +267,7 @@ impl HalfKick<'_, '_> {
 impl Kernel for HalfKick<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(mut self) {
-        let clumps = self.bodies.piece(self.piece);
+        let clumps = self.clumps.clone();
         let mut clump = clumps.start;
         while clump + N::WIDTH <= clumps.end {
             self.several::<N>(clump);

@@ -62,8 +62,9 @@ pub(crate) struct Encounters<'a> {
 
 /// The place of the body that moves a particle (slot).
 fn mover(state: &State, slot: u32) -> usize {
-    match state.particles.group(slot as usize) {
-        None => state.particles.original(slot) as usize,
+    let original = state.particles.original(slot) as usize;
+    match state.particles.group(original) {
+        None => original,
         Some(group) => state.particles.len() + group,
     }
 }

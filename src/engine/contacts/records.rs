@@ -104,14 +104,15 @@ impl Motion {
         let (particles, slot) = (&state.particles, slot as usize);
         let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
         if let Some(cell) = &state.cell {
-            let stream = cell.streaming_at(particles.position[slot]);
+            let stream = cell.streaming_at(state.carried_point(slot));
             velocity.iter_mut().zip(stream).for_each(|(sum, part)| *sum += part);
         }
         let Self::HalfStepBack(step) = self else { return (velocity, spin) };
-        let group = particles.group(slot);
+        let original = particles.original(slot as u32) as usize;
+        let group = particles.group(original);
         if let Some(clump) = group.and_then(|group| group.checked_sub(state.boundaries.len())) {
             let [kick, twist] = clumps::last_kick(&state.clumps, clump, step);
-            let arm = Vector::from(particles.position[slot]) - state.clumps.position[clump].into();
+            let arm = Vector::from(particles.position[original]) - state.clumps.position[clump].into();
             let (kick, twist) = ((kick + twist.cross(arm)).to_array(), twist.to_array());
             for axis in 0..3 {
                 velocity[axis] -= kick[axis];
@@ -119,14 +120,13 @@ impl Motion {
             }
         } else if let Some(group) = group {
             let moved = &state.boundaries[group];
-            let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+            let arm = Vector::from(particles.position[original]) - moved.pivot.into();
             let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
             for axis in 0..3 {
                 velocity[axis] -= moved.inertial.kick[axis] + turned[axis];
                 spin[axis] -= moved.inertial.spin_kick[axis];
             }
         } else {
-            let original = particles.original(slot as u32) as usize;
             for axis in 0..3 {
                 velocity[axis] -= 0.5 * step / velocity[3] * particles.force[original][axis];
                 spin[axis] -= 0.5 * step / spin[3] * particles.torque[original][axis];

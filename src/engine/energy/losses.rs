@@ -7,7 +7,7 @@ use crate::engine::integration::Fields;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Loss, Losses, State};
 
-/// Potential of gravity and applied forces on the particles that move by the forces on them \[J\].
+/// Potential of gravity and applied forces on the particles and clumps that move by the forces on them \[J\].
 pub(crate) fn potential(state: &State, fields: &Fields) -> f64 {
     let particles = &state.particles;
     let of = |slot: usize| {
@@ -15,7 +15,17 @@ pub(crate) fn potential(state: &State, fields: &Fields) -> f64 {
         let [a, b, c] = fields.applied(particles.id[slot]);
         -Vector::new(x + a, y + b, z + c).dot(state.unwrapped(slot).into())
     };
-    (0..particles.len()).filter(|&slot| particles.owner[slot] == 0).map(of).sum()
+    let loose: f64 = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0).map(of).sum();
+    let clumps = &state.clumps;
+    let of_clump = |clump: usize| {
+        let weight = Vector::from(fields.weight(clumps.velocity[clump][3]));
+        let applied = clumps.spheres_of(clump).iter().map(|&sphere| {
+            let place = state.unwrapped(particles.slot[sphere as usize] as usize);
+            Vector::from(fields.applied(sphere)).dot(place.into())
+        });
+        -weight.dot(state.unwrapped_clump(clump).into()) - applied.sum::<f64>()
+    };
+    loose + (0..clumps.len()).map(of_clump).sum::<f64>()
 }
 
 /// Books what global damping takes in the first half kick of a step of this length \[s\], and the half kick of bodies.

@@ -18,16 +18,17 @@ pub(crate) fn check(scene: &Scene, particles: &Particles, exchange: &Exchange) -
             demand(here, "particles", member as usize, "every particle of a group")?;
         }
     }
+    for clump in &scene.clumps {
+        owners[scene.spheres_of(clump)].fill(OF_CLUMP);
+    }
     for slot in 0..particles.len() {
         let index = particles.id[slot] as usize;
         let expected = "radius, mass, inertia, material and group that the scene gives it";
-        demand(
-            is_as_made(scene, particles, slot, owners.get(index).copied().unwrap_or(0)),
-            "particles",
-            slot,
-            expected,
-        )?;
+        demand(is_as_made(scene, particles, slot, owners.get(index).copied()), "particles", slot, expected)?;
     }
+    let kinds = exchange.feeds.iter().zip(&scene.insertions);
+    let known = kinds.into_iter().all(|(feed, insertion)| (feed.kind as usize) < insertion.kinds.len());
+    demand(known, "feeds", 0, "kinds that insertions let come")?;
     let last = scene.particles.last().map_or(0, |last| last.id.0);
     let mut numbers: Vec<u32> =
         (own..particles.slot.len()).filter_map(|index| number_at(particles, index as u32)).collect();
@@ -43,15 +44,26 @@ fn number_at(particles: &Particles, index: u32) -> Option<u32> {
     particles.slot_of(index).and_then(|_| particles.number_of_inserted(index))
 }
 
-/// Whether what never changes of the particle in a slot is as the scene or an insertion gives it.
-fn is_as_made(scene: &Scene, particles: &Particles, slot: usize, owner: u32) -> bool {
+/// Stands for the owner of a sphere of a clump, which is looked at with its clump.
+const OF_CLUMP: u32 = u32::MAX;
+
+/// Whether what never changes of the particle in a slot is as the scene, which gives it an owner, or an insertion has it.
+fn is_as_made(scene: &Scene, particles: &Particles, slot: usize, owner: Option<u32>) -> bool {
     let (radius, mass) = (particles.position[slot][3], particles.velocity[slot][3]);
     let (inertia, material) = (particles.angular_velocity[slot][3], particles.material[slot]);
     let same = |shape: ParticleShape, expected: f64| {
         mass.to_bits() == expected.to_bits() && inertia.to_bits() == shape.inertia(expected, radius).to_bits()
     };
-    if ![owner, IMAGE].contains(&particles.owner[slot]) {
-        return false;
+    if particles.owner[slot] == IMAGE {
+        // Its particle has been looked at.
+        return true;
+    }
+    let is_of_clump = particles.owner[slot] as usize > scene.boundaries.len();
+    match owner {
+        Some(OF_CLUMP) => return is_of_clump,
+        None if is_of_clump => return true,
+        owner if particles.owner[slot] != owner.unwrap_or(0) => return false,
+        _ => {}
     }
     match scene.particles.get(particles.id[slot] as usize) {
         Some(own) => {
@@ -61,11 +73,14 @@ fn is_as_made(scene: &Scene, particles: &Particles, slot: usize, owner: u32) -> 
     }
 }
 
-/// Whether an insertion of a scene makes particles of this radius \[m\], mass \[kg\] and material.
+/// Whether an insertion of a scene makes loose spheres of this radius \[m\], mass \[kg\] and material.
 pub(crate) fn is_made(scene: &Scene, radius: f64, mass: f64, material: u32) -> bool {
     let made = |insertion: &crate::scene::Insertion| {
-        let same = insertion.mass(radius).to_bits() == mass.to_bits();
-        insertion.material.0 == material && insertion.sizes.hold(radius) && same
+        let of_kind = |kind: &crate::scene::Kind| {
+            let same = kind.mass(radius).to_bits() == mass.to_bits();
+            kind.clump.is_none() && kind.sizes.hold(radius, 1.0) && same
+        };
+        insertion.material.0 == material && insertion.kinds.iter().any(of_kind)
     };
     scene.insertions.iter().any(made)
 }

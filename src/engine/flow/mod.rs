@@ -14,6 +14,7 @@ mod places;
 
 use crate::base::number::Vector;
 use crate::engine::boundaries::passing::Passing;
+use crate::engine::clumps::ClumpBodies;
 use crate::engine::integration::Fields;
 use crate::engine::run_error::RunError;
 use crate::engine::state::State;
@@ -116,18 +117,29 @@ impl Flow {
         let particles = &state.particles;
         let mut net = NetExchange::default();
         for slot in (0..leaving.goes.len()).filter(|&slot| leaving.goes[slot]) {
-            book(&mut net, (particles.position[slot], particles.velocity[slot]), -1.0, since);
-            let spin = particles.angular_velocity[slot];
-            let turning = 0.5 * spin[3] * Vector::from(spin).dot(spin.into());
-            (net.kinetic, net.turnover) = (net.kinetic - turning, net.turnover + turning);
             let id = particles.id[slot];
             let applied = fields.applied(id);
-            let (load, place) = (fields.loads(particles.velocity[slot][3], id), Vector::from(state.unwrapped(slot)));
-            net.potential += Vector::from(load).dot(place);
+            let mut load = Vector::from(applied);
+            if state.clump(slot).is_none() {
+                let (velocity, spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+                book(&mut net, velocity, -1.0, since);
+                book_turning(&mut net, 0.5 * spin[3] * Vector::from(spin).dot(spin.into()));
+                load = Vector::from(fields.loads(velocity[3], id));
+            }
+            net.potential += load.dot(state.unwrapped(slot).into());
             for axis in 0..3 {
                 net.applied[axis] -= applied[axis];
                 net.applied_time[axis] -= applied[axis] * since;
             }
+        }
+        let clumps = &state.clumps;
+        let of_clump = |clump: usize| particles.slot[clumps.spheres_of(clump)[0] as usize] as usize;
+        for clump in (0..clumps.len()).filter(|&clump| leaving.goes[of_clump(clump)]) {
+            book(&mut net, clumps.velocity[clump], -1.0, since);
+            let (spin, momentum) = (clumps.angular_velocity[clump], clumps.angular_momentum[clump]);
+            book_turning(&mut net, 0.5 * Vector::from(spin).dot(momentum.into()));
+            let weight = Vector::from(fields.weight(clumps.velocity[clump][3]));
+            net.potential += weight.dot(state.unwrapped_clump(clump).into());
         }
         if let Some(exchange) = &mut state.exchange {
             exchange.net.add(&net);
@@ -159,25 +171,21 @@ impl Flow {
         let Some(exchange) = &state.exchange else { return false };
         let mut feeds = exchange.feeds.iter().zip(&scene.insertions);
         feeds.any(|(feed, insertion)| {
-            let [least, _] = insertion.sizes.bounds();
-            let radius = if feed.radius > 0.0 { feed.radius } else { least };
-            matches!(insertion.amount, Amount::Mass(_)) && !feed.full && is_owed(insertion, feed, radius)
+            matches!(insertion.amount, Amount::Mass(_)) && !feed.full && is_owed(insertion, feed)
         })
     }
 
     /// Whether a particle of an insertion is due and may be tried.
     fn may_come(&self, feed: &InsertionProgress, insertion: &crate::scene::Insertion, steps: u64) -> bool {
-        let [least, _] = insertion.sizes.bounds();
-        let radius = if feed.radius > 0.0 { feed.radius } else { least };
         let waited = steps >= feed.tried + WAIT || feed.tried == 0;
-        waited && is_owed(insertion, feed, radius) && (!feed.full || feed.travel > LOOK * self.smallest)
+        waited && is_owed(insertion, feed) && (!feed.full || feed.travel > LOOK * self.smallest)
     }
 
     /// Lets particles come that are due, in a time step of this length \[s\]. Returns whether any came.
     pub(crate) fn insert(
         &self,
         scene: &Scene,
-        fields: &Fields,
+        (fields, clumps): (&Fields, Option<&ClumpBodies>),
         state: &mut State,
         step: f64,
     ) -> Result<bool, RunError> {
@@ -188,29 +196,36 @@ impl Flow {
                 exchange.feeds.get(index).is_some_and(|feed| self.may_come(feed, insertion, steps))
             });
             if due {
-                came |= places::feed(scene, fields, state, (index, self.turning), step)?;
+                came |= places::feed(scene, (fields, clumps), state, (index, self.turning), step)?;
             }
         }
         Ok(came)
     }
 }
 
-/// Whether a particle of this radius \[m\] is due.
-fn is_owed(insertion: &crate::scene::Insertion, feed: &InsertionProgress, radius: f64) -> bool {
-    feed.owed >= cost(insertion, radius) * (1.0 - WHOLE)
+/// Whether what comes next is due.
+fn is_owed(insertion: &crate::scene::Insertion, feed: &InsertionProgress) -> bool {
+    feed.owed >= cost(insertion, feed) * (1.0 - WHOLE)
 }
 
-/// What a particle of this radius \[m\] takes of what is due: its mass \[kg\], or 1 where particles are counted.
-fn cost(insertion: &crate::scene::Insertion, radius: f64) -> f64 {
+/// What the next one takes of what is due: its mass \[kg\], the least where it has not been drawn, or 1 where they are counted.
+fn cost(insertion: &crate::scene::Insertion, feed: &InsertionProgress) -> f64 {
     match insertion.amount {
-        Amount::CountRate(_) => 1.0,
-        Amount::MassRate(_) | Amount::Mass(_) => insertion.mass(radius),
+        Amount::MassRate(_) | Amount::Mass(_) if feed.radius > 0.0 => {
+            insertion.kinds[feed.kind as usize].mass(feed.radius)
+        }
+        _ => insertion.least_amount(),
     }
 }
 
-/// Books position and velocity rows of a particle that comes (`sign` 1) or goes (−1) and is there from, or up to, this time \[s\];
+/// Books the energy with which a body that goes turns \[J\].
+fn book_turning(net: &mut NetExchange, turning: f64) {
+    (net.kinetic, net.turnover) = (net.kinetic - turning, net.turnover + turning);
+}
+
+/// Books the velocity row of a body that comes (`sign` 1) or goes (−1) and is there from, or up to, this time \[s\];
 /// not what acts on it.
-fn book(net: &mut NetExchange, (_, velocity): ([f64; 4], [f64; 4]), sign: f64, since: f64) {
+fn book(net: &mut NetExchange, velocity: [f64; 4], sign: f64, since: f64) {
     let mass = sign * velocity[3];
     net.mass += mass;
     net.mass_time += mass * since;
@@ -250,12 +265,14 @@ pub(crate) fn begun(scene: &Scene) -> Option<Exchange> {
             Amount::Mass(mass) => mass,
             Amount::MassRate(_) | Amount::CountRate(_) => 0.0,
         },
+        orientation: [1.0, 0.0, 0.0, 0.0],
         ..InsertionProgress::default()
     };
     Some(Exchange {
         // What is in an outlet at the beginning goes in the first time step.
         travel: scene.radii().fold(0.0, f64::max),
         next: scene.particles.last().map_or(1, |last| last.id.0.saturating_add(1)),
+        next_clump: scene.clumps.len() as u32,
         feeds: scene.insertions.iter().map(feed).collect(),
         outlets: vec![Default::default(); scene.outlets.len()],
         passed: vec![Default::default(); scene.boundaries.len()],

@@ -26,6 +26,7 @@ impl RemovedParticles {
         let told = outlets.iter_mut().take(scene.outlets.len()).chain([outside]).chain(passed);
         for (sum, tally) in told.zip(&self.tallies) {
             sum.count += tally.count;
+            sum.clumps += tally.clumps;
             sum.mass += tally.mass;
         }
     }
@@ -39,7 +40,8 @@ impl RemovedParticles {
     }
 }
 
-/// The particles whose centres are where an outlet takes them away, if there are any. The first outlet that has one takes it.
+/// The particles whose centres are where an outlet takes them away, if there are any: of clumps all spheres go when their mass centre is
+/// there, or one of them came through a boundary. The first outlet that has one takes it.
 pub(super) fn find(
     scene: &Scene,
     state: &State,
@@ -53,8 +55,7 @@ pub(super) fn find(
     let shifts: Vec<Vector> = scene.outlets.iter().map(|outlet| shift(scene, state, outlet.place)).collect();
     let places: Vec<Option<Place>> =
         scene.outlets.iter().zip(&shifts).map(|(outlet, shift)| place(scene, state, (outlet.place, *shift))).collect();
-    for slot in near::particles(state) {
-        let centre = Vector::from(particles.position[slot]);
+    let place_of = |centre: Vector| {
         let by = scene.outlets.iter().zip(&shifts).zip(&places).position(|((outlet, shift), place)| {
             let mut taken = false;
             let mut look = |centre: Vector| taken |= takes(scene, outlet.place, centre - *shift);
@@ -64,8 +65,11 @@ pub(super) fn find(
             }
             taken
         });
-        let by = by.or_else(|| outside.filter(|corners| is_outside(centre, corners)).map(|_| scene.outlets.len()));
-        let by = by.or_else(|| passed.iter().find(|it| it.slot == slot).map(|it| first + it.boundary));
+        by.or_else(|| outside.filter(|corners| is_outside(centre, corners)).map(|_| scene.outlets.len()))
+    };
+    let through = |slot: usize| passed.iter().find(|it| it.slot == slot).map(|it| first + it.boundary);
+    for slot in near::particles(state).filter(|&slot| state.clump(slot).is_none()) {
+        let by = place_of(particles.position[slot].into()).or_else(|| through(slot));
         let Some(by) = by else { continue };
         if let Some(group) = particles.group(slot) {
             return Err(RunError::GroupLeaves {
@@ -76,7 +80,16 @@ pub(super) fn find(
             });
         }
         (any, goes[slot]) = (true, true);
-        tallies[by].add(particles.velocity[slot][3]);
+        tallies[by].add(None, particles.velocity[slot][3]);
+    }
+    for (clump, centre) in state.clumps.position.iter().enumerate() {
+        let spheres = state.clumps.spheres_of(clump);
+        let mut slots = spheres.iter().map(|&sphere| particles.slot[sphere as usize] as usize);
+        let by = place_of(Vector::from(*centre)).or_else(|| slots.clone().find_map(through));
+        let Some(by) = by else { continue };
+        any = true;
+        slots.by_ref().for_each(|slot| goes[slot] = true);
+        tallies[by].add(Some(spheres.len()), state.clumps.velocity[clump][3]);
     }
     Ok(any.then(|| RemovedParticles { goes, tallies, passed: passed.to_vec() }))
 }

@@ -132,11 +132,6 @@ impl Search {
         self.touching
     }
 
-    /// Radius of the largest particle \[m\].
-    pub(crate) fn largest_radius(&self) -> f64 {
-        self.largest
-    }
-
     /// Radius of the smallest particle \[m\].
     pub(crate) fn smallest_radius(&self) -> f64 {
         self.smallest
@@ -325,7 +320,7 @@ fn boundary(boundary: &Boundary) -> (Shape, Vector, bool) {
 fn laws(scene: &Scene) -> Laws {
     let (materials, governing) = (scene.materials.len(), scene.governing_laws());
     let groups = scene.cell.is_some()
-        || !scene.clumps.is_empty()
+        || scene.has_clumps()
         || scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty());
     let here = scene.present();
     let mut met = (0..here.len().pow(2))
@@ -333,7 +328,7 @@ fn laws(scene: &Scene) -> Laws {
         .map(|entry| governing.rows()[entry]);
     let first = met.next().flatten();
     let only = first.filter(|_| !groups && met.all(|law| law == first));
-    Laws { governing, only, count: scene.contacts.len() }
+    Laws { governing, only, count: scene.contacts.len(), groups: scene.boundaries.len() as u32 }
 }
 
 /// How far the particle that has moved most since the lists were made is from where it was \[m\].

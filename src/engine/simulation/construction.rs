@@ -9,7 +9,7 @@ use crate::base::threads::{Context, Workers};
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::boundaries::rigid_body;
 use crate::engine::cell::Cell;
-use crate::engine::clumps::ClumpBodies;
+use crate::engine::clumps::{self, ClumpBodies};
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
@@ -83,7 +83,7 @@ impl Simulation {
         rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
         let context = Context { step: 0.0, width: self.width, threads: None };
         if let Some(clumps) = &self.clumps {
-            clumps.place(&mut self.state, &context);
+            clumps.place(&mut self.state);
         }
         self.check_memory()?;
         self.rebuild(&context);
@@ -123,7 +123,7 @@ impl Simulation {
     /// Largest speed of what forces move, at the middle of a step of this length \[s\], from rest or not \[m/s\].
     fn coming_speed(&self, step: f64) -> f64 {
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
-        let clumps = self.clumps.as_ref().map_or(0.0, |clumps| clumps.coming_speed(&self.state.clumps, step));
+        let clumps = clumps::coming_speed(&self.state.clumps, step);
         integration::coming_speed(&self.state.particles, step).max(groups).max(clumps)
     }
 

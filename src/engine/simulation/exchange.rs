@@ -24,7 +24,7 @@ impl Simulation {
         if !flow.is_due(&self.scene, &self.state) {
             return Ok(leaving.is_some());
         }
-        let came = flow.insert(&self.scene, &self.fields, &mut self.state, step)?;
+        let came = flow.insert(&self.scene, (&self.fields, self.clumps.as_ref()), &mut self.state, step)?;
         if came {
             // What is new may touch others in a way that nothing has foreseen.
             self.state.foresight.travel = f64::MAX;
@@ -42,7 +42,7 @@ impl Simulation {
         }
         let before = booked.then(|| held(self));
         let (passes, state) = (&self.passes, &mut self.state);
-        let goes = state.with_images(&leaving.goes);
+        let goes = state.with_all(&leaving.goes);
         let given: f64 = passes.iter().map(|pass| pass.let_go(state, &goes, step)).sum();
         flow.remove(&self.scene, &self.fields, &mut self.state, leaving, step);
         if let Some((elastic, StoredEnergy(before))) = before {

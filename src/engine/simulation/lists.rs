@@ -2,6 +2,7 @@
 
 use super::{RunError, Simulation};
 use crate::base::threads::Context;
+use crate::engine::cell::Cell;
 use crate::laws::bond::creation::Moment;
 
 impl Simulation {
@@ -13,7 +14,8 @@ impl Simulation {
         let extents = self.state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
         let farthest = travels.iter().zip(extents).map(|(travel, extent)| travel.farthest(extent));
         // What is near is carried along by the cell but for the change of the vector between both.
-        let near = 2.0 * self.search.largest_radius() + self.state.neighbours.skin + self.search.reach();
+        let reach = self.cell.as_ref().map_or(0.0, Cell::reach);
+        let near = 2.0 * reach + self.state.neighbours.skin + self.search.reach();
         let way = if strain > 0.0 { way + 0.5 * strain * near } else { way };
         let farthest = farthest.fold(way, f64::max);
         let before = self.state.neighbours.travel;

@@ -9,6 +9,7 @@ use crate::engine::boundaries::course;
 use crate::engine::contacts::{Encounters, FASTER};
 use crate::engine::state::Pace;
 use crate::laws::contact::impact::{ErrorCurve, Impact, LONGEST_PART};
+use crate::scene::Kind;
 use crate::scene::{Scene, Step};
 
 /// Time steps after which all contacts are looked at again. Such a look takes about as long as a time step.
@@ -136,9 +137,6 @@ impl Simulation {
 /// Radius \[m\] and mass \[kg\] of the lightest particle of a scene.
 fn lightest(scene: &Scene) -> Option<[f64; 2]> {
     let now = scene.particles.iter().map(|particle| [particle.radius, particle.mass()]);
-    let coming = scene.insertions.iter().map(|insertion| {
-        let [radius, _] = insertion.sizes.bounds();
-        [radius, insertion.mass(radius)]
-    });
-    now.chain(coming).reduce(|least, next| if next[1] < least[1] { next } else { least })
+    let coming = scene.insertions.iter().map(|insertion| insertion.kinds.iter().map(Kind::lightest));
+    now.chain(coming.flatten()).reduce(|least, next| if next[1] < least[1] { next } else { least })
 }

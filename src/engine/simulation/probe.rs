@@ -8,7 +8,7 @@ use crate::base::threads::Context;
 use crate::engine::boundaries::rigid_body::{self, RigidBody};
 use crate::engine::contacts::{Link, SearchLimits};
 use crate::engine::integration;
-use crate::engine::state::{BoundaryState, Orientation, State};
+use crate::engine::state::{BoundaryState, Clumps, Orientation, State};
 use std::sync::Arc;
 
 /// Time that a displacement takes, over the stable time step: so long that no dashpot feels it.
@@ -32,14 +32,20 @@ pub enum ProbeBody {
     Particle(u32),
     /// A boundary, with the particles of a group.
     Boundary(BoundaryIndex),
+    /// A clump, with its spheres.
+    Clump(u32),
     /// The periodic cell, with the particles in it.
     Cell,
 }
 
 impl ProbeBody {
-    /// The slot of a particle.
-    pub(crate) fn slot(self) -> Option<u32> {
-        if let Self::Particle(slot) = self { Some(slot) } else { None }
+    /// The slot of a particle, of a clump in a state that of its first sphere.
+    pub(crate) fn slot(self, state: &State) -> Option<u32> {
+        match self {
+            Self::Particle(slot) => Some(slot),
+            Self::Clump(clump) => Some(state.particles.slot[state.clumps.spheres_of(clump as usize)[0] as usize]),
+            Self::Boundary(_) | Self::Cell => None,
+        }
     }
 }
 
@@ -116,12 +122,18 @@ impl Probe {
                     let boundary = &mut simulation.state.boundaries[boundary.index()];
                     displace_boundary(boundary, axis, (amount, slowly));
                 }
+                ProbeBody::Clump(clump) => {
+                    displace_clump(&mut simulation.state.clumps, clump as usize, axis, (amount, slowly));
+                }
                 ProbeBody::Cell => {
                     if let Some(cell) = &simulation.cell {
                         cell.displace(&mut simulation.state, axis, (amount, slowly));
                     }
                 }
             }
+        }
+        if let Some(clumps) = &simulation.clumps {
+            clumps.place(&mut simulation.state);
         }
         if let Some(cell) = &simulation.cell {
             cell.place_images(&mut simulation.state);
@@ -164,7 +176,10 @@ impl Probe {
 
 /// Takes all motion out of a state.
 fn stop(state: &mut State) {
-    for rows in [&mut state.particles.velocity, &mut state.particles.angular_velocity] {
+    let (particles, clumps) = (&mut state.particles, &mut state.clumps);
+    let of_particles = [&mut particles.velocity, &mut particles.angular_velocity];
+    let of_clumps = [&mut clumps.velocity, &mut clumps.angular_velocity, &mut clumps.angular_momentum];
+    for rows in of_particles.into_iter().chain(of_clumps) {
         rows.iter_mut().for_each(|row| row[..3].fill(0.0));
     }
     for boundary in &mut state.boundaries {
@@ -192,6 +207,20 @@ fn displace_boundary(moved: &mut BoundaryState, axis: usize, (amount, slowly): (
     moved.orientation = Orientation::from(orientation);
     moved.rotation = rotation::vector_near(orientation, Vector::from(moved.rotation) + turn).to_array();
     moved.angular_velocity[axis - 3] = amount / slowly;
+}
+
+/// Displaces a clump by so much \[m, rad\] in so long \[s\]; its spheres are to follow.
+fn displace_clump(clumps: &mut Clumps, clump: usize, axis: usize, (amount, slowly): (f64, f64)) {
+    if axis < 3 {
+        clumps.position[clump][axis] += amount;
+        clumps.velocity[clump][axis] = amount / slowly;
+        return;
+    }
+    let mut turn = [0.0; 3];
+    turn[axis - 3] = amount;
+    let row = &mut clumps.orientation[clump];
+    *row = (rotation::orientation(Vector::from(turn)) * Quaternion::from_row(*row)).to_row();
+    clumps.angular_velocity[clump][axis - 3] = amount / slowly;
 }
 
 /// Displaces a particle by so much \[m, rad\] in so long \[s\].

@@ -3,6 +3,7 @@
 use super::{RunError, Simulation};
 use crate::base::number::Vector;
 use crate::engine::boundaries::passing::MovedParticles;
+use crate::engine::clumps::speed_after;
 use crate::engine::run_error::Cause;
 use crate::engine::state::{Clock, GONE, Particles};
 use crate::laws::motion::InputCourse;
@@ -60,15 +61,13 @@ impl Simulation {
             }
         }
         let clumps = &self.state.clumps;
-        for (bodies, clump) in
-            self.clumps.iter().flat_map(|bodies| (0..bodies.count()).map(move |clump| (bodies, clump)))
-        {
-            let (smallest, way) = (clumps.moments[clump][3], step * bodies.speed_after(clumps, clump, step));
+        for clump in 0..clumps.len() {
+            let (smallest, way) = (clumps.moments[clump][3], step * speed_after(clumps, clump, step));
             if way > RUNAWAY * smallest {
-                let now = bodies.speed_after(clumps, clump, 0.0);
+                let now = speed_after(clumps, clump, 0.0);
                 let force = Vector::from(clumps.force[clump]).length();
                 let cause = self.cause_of_displacement(step, now, force, step * now > 0.5 * way);
-                return Err(self.runaway(self.scene.clumps[clump].first, way / smallest, cause));
+                return Err(self.runaway(clumps.spheres_of(clump)[0], way / smallest, cause));
             }
         }
         Ok(())

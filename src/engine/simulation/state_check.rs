@@ -1,6 +1,7 @@
 //! States from outside are checked before they are used.
 
 use super::{RunError, Simulation};
+use crate::engine::clumps;
 use crate::engine::flow;
 use crate::engine::state::{State, StateFault, demand};
 use crate::scene::Step;
@@ -20,9 +21,7 @@ impl Simulation {
     pub fn check(&self, state: &State) -> Result<(), StateFault> {
         state.check(&self.state)?;
         self.search.check(state)?;
-        if let Some(clumps) = &self.clumps {
-            clumps.check(state, &self.state)?;
-        }
+        clumps::check(&self.scene, state)?;
         let count = state.particles.len();
         if let Some(exchange) = &state.exchange {
             flow::check(&self.scene, &state.particles, exchange)?;

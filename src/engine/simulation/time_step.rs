@@ -116,7 +116,7 @@ impl Simulation {
                 if let Some(cell) = self.cell.as_mut().filter(|_| source != Source::Walls) {
                     cell.end_kind(&mut self.state, !more, context);
                 }
-                clumps::note_loads(self.clumps.as_ref(), &mut self.state, source);
+                clumps::note_loads(&mut self.state, source);
                 self.workspace.between.note(&mut self.state, &self.bodies, source, next);
                 self.done(source.name());
                 if let Some(cell) = self.cell.as_mut().filter(|_| more) {
@@ -131,7 +131,7 @@ impl Simulation {
         self.suppression.broken(state, told);
         self.suppression.settle(state);
         loads::sum_groups(&self.scene, state);
-        let on_clumps = self.clumps.as_ref().map(|clumps| clumps.load(&self.fields, state, context));
+        let on_clumps = (!state.clumps.is_empty()).then(|| clumps::load(&self.fields, state, context));
         state.damping_force = if fields { self.fields.apply(state, context) } else { [0.0; 3] };
         let braking = self.fields.load_bodies(&self.bodies, state);
         for braking in on_clumps.into_iter().chain([braking]) {
@@ -159,8 +159,8 @@ impl Simulation {
 
     /// Books the half kick of clumps that is about to be made.
     fn book_clumps(&mut self, step: f64) {
-        clumps::book_work(self.clumps.as_ref(), &mut self.state, &self.fields, step);
-        clumps::book_losses(self.clumps.as_ref(), &mut self.state, &self.fields, step);
+        clumps::book_work(&mut self.state, &self.fields, step);
+        clumps::book_losses(&mut self.state, &self.fields, step);
     }
 
     /// Books the impulses of a step on boundaries and nodes, and that of global damping.

@@ -204,16 +204,19 @@ impl System<'_> {
             join(&mut still[material as usize], next);
         }
         for insertion in &self.scene.insertions {
-            let [smallest, most] = insertion.sizes.bounds().map(|radius| {
-                let mass = insertion.mass(radius);
-                let body = (radius, mass, ParticleShape::Sphere.inertia(mass, radius));
-                Candidate::sphere(insertion.material.0, GONE, body, [1.0; 2])
-            });
-            for _ in 0..2 {
-                put(&mut lightest[insertion.material.index()], smallest);
+            // Clumps are among those that strike.
+            for kind in insertion.kinds.iter().filter(|kind| kind.clump.is_none()) {
+                let [smallest, most] = kind.sizes.bounds().map(|radius| {
+                    let mass = kind.mass(radius);
+                    let body = (radius, mass, ParticleShape::Sphere.inertia(mass, radius));
+                    Candidate::sphere(insertion.material.0, GONE, body, [1.0; 2])
+                });
+                for _ in 0..2 {
+                    put(&mut lightest[insertion.material.index()], smallest);
+                }
+                let large = &mut largest[insertion.material.index()];
+                *large = large.filter(|large| large.radius >= most.radius).or(Some(most));
             }
-            let large = &mut largest[insertion.material.index()];
-            *large = large.filter(|large| large.radius >= most.radius).or(Some(most));
         }
         for (body, boundary) in self.bodies.iter().zip(&self.state.boundaries) {
             let Some(body) = body.as_ref().filter(|body| body.is_free() && !body.is_surface()) else { continue };

@@ -105,7 +105,7 @@ impl System<'_> {
 
     /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
     fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
-        let bodies = Network::of_bodies(self.state, (self.bodies, self.clumps), self.fields);
+        let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
         let supports = bodies.supports(self.bodies);
         blocks::quick_root(&bodies, supports, |tell| {
             self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell));
@@ -120,7 +120,7 @@ impl System<'_> {
 
     /// The network, as it may get.
     fn network(&self, ahead: &SearchLimits) -> Network<'_> {
-        Network::of(self.state, (self.bodies, self.clumps), self.fields, self.passes, ahead)
+        Network::of(self.state, self.bodies, self.fields, self.passes, ahead)
     }
 
     /// What a step that was found is limited by.

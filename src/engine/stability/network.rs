@@ -2,7 +2,7 @@
 
 use crate::base::number::{Vector, binade};
 use crate::engine::boundaries::RigidBody;
-use crate::engine::clumps::ClumpBodies;
+use crate::engine::clumps;
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{IMAGE, State};
@@ -146,11 +146,7 @@ pub(crate) struct Network<'a> {
 
 impl<'a> Network<'a> {
     /// The bodies without interactions.
-    pub(super) fn of_bodies(
-        state: &'a State,
-        (bodies, clumps): (&[Option<RigidBody>], Option<&ClumpBodies>),
-        fields: &Fields,
-    ) -> Self {
+    pub(super) fn of_bodies(state: &'a State, bodies: &[Option<RigidBody>], fields: &Fields) -> Self {
         let particles = &state.particles;
         let root = |slot: usize| {
             let [linear, angular] = fields.amplification(particles.id[slot]);
@@ -165,12 +161,12 @@ impl<'a> Network<'a> {
             Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
         };
         let groups = bodies.iter().zip(&state.boundaries).map(group);
-        let clump = |(clumps, index): (&ClumpBodies, usize)| {
-            let pivot = Vector::from(state.clumps.position[index]);
-            Some(Group { pivot, root: clumps.root(&state.clumps, index, clumps.amplification(index, fields)) })
+        let rigid = &state.clumps;
+        let clump = |index: usize| {
+            let root = clumps::root(rigid, index, clumps::amplification(rigid, index, fields));
+            Some(Group { pivot: Vector::from(rigid.position[index]), root })
         };
-        let all = clumps.into_iter().flat_map(|clumps| (0..clumps.count()).map(move |index| (clumps, index)));
-        let groups = groups.chain(all.map(clump));
+        let groups = groups.chain((0..rigid.len()).map(clump));
         Self {
             state,
             roots: (0..particles.len()).map(root).collect(),
@@ -184,12 +180,12 @@ impl<'a> Network<'a> {
     /// The bodies with what is at work between them or, looking ahead, may be.
     pub(crate) fn of(
         state: &'a State,
-        (bodies, clumps): (&[Option<RigidBody>], Option<&ClumpBodies>),
+        bodies: &[Option<RigidBody>],
         fields: &Fields,
         passes: &[Box<dyn Pass>],
         ahead: &SearchLimits,
     ) -> Self {
-        let mut network = Self::of_bodies(state, (bodies, clumps), fields);
+        let mut network = Self::of_bodies(state, bodies, fields);
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
         let most = most_links(state);
         network.elements.reserve(most);
@@ -285,17 +281,14 @@ impl<'a> Network<'a> {
         std::array::from_fn(|k| stiffness[k] + root * damping[k])
     }
 
-    /// An interaction; of a particle with an image of itself two with what stands still, which are together at least as stiff, as
+    /// An interaction; of a particle or clump with an image of itself two with what stands still, which are together at least as stiff, as
     /// |a − b|² ≤ 2 |a|² + 2 |b|².
     pub(super) fn with_itself(&self, link: &Link) -> [Option<Link>; 2] {
         if self.state.cell.is_none() {
             return [Some(*link), None];
         }
-        let particles = &self.state.particles;
-        let original = |slot: u32| particles.original(slot);
-        let Some(second) =
-            link.second.filter(|&second| second != link.first && original(second) == original(link.first))
-        else {
+        let is_same = |a: u32, b: u32| a != b && self.mover(a).is_some() && self.mover(a) == self.mover(b);
+        let Some(second) = link.second.filter(|&second| is_same(second, link.first)) else {
             return [Some(*link), None];
         };
         let alone = |first: u32, arms: [f64; 2]| Link {
@@ -370,10 +363,14 @@ impl<'a> Network<'a> {
     /// From what moves a particle to where an element acts on it \[m\].
     pub(super) fn arm(&self, element: &Element, end: usize, group: &Group) -> Vector {
         let [x, y, z] = element.normal.map(f64::from);
-        let centre = |slot: u32| self.state.particles.position.get((slot & !HELD) as usize);
+        let particles = &self.state.particles;
+        let centre = |slot: u32| {
+            let slot = Some(slot & !HELD).filter(|slot| (*slot as usize) < particles.len())?;
+            Some(particles.position[particles.original(slot) as usize])
+        };
         // A surface is touched by the particle at the other end; what holds it to the ground acts at its point of reference.
         let [own, other] = [element.slots[end], element.slots[1 - end]];
-        let Some(&centre) = centre(own).or_else(|| centre(other)) else { return Vector::zero() };
+        let Some(centre) = centre(own).or_else(|| centre(other)) else { return Vector::zero() };
         Vector::from(centre) - group.pivot + Vector::new(x, y, z) * f64::from(element.arms[end])
     }
 }

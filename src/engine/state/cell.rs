@@ -119,8 +119,8 @@ impl CellState {
         }
     }
 
-    /// How far one of the scene's particles, by its index, has been brought back into the cell \[m\].
-    pub(crate) fn brought_back(&self, index: u32) -> [f64; 3] {
+    /// By how much a particle, by its index, has been brought back into the cell \[m\].
+    pub(crate) fn displacement(&self, index: u32) -> [f64; 3] {
         displacement(&self.edges, self.edges_away[index as usize])
     }
 

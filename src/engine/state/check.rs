@@ -115,7 +115,8 @@ impl State {
             self.particles.check_same(&other.particles)?;
         }
         let same = "as many as the scene has";
-        demand(self.clumps.len() == other.clumps.len(), "clumps", self.clumps.len(), same)?;
+        let stay = self.exchange.is_some() || self.clumps.len() == other.clumps.len();
+        demand(stay, "clumps", self.clumps.len(), same)?;
         demand(self.contacts.len() == other.contacts.len(), "contacts", self.contacts.len(), same)?;
         demand(self.walls.len() == other.walls.len(), "walls", self.walls.len(), same)?;
         demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), same)?;
@@ -143,7 +144,7 @@ impl State {
         self.foresight.check()?;
         self.pace.check()?;
         self.particles.check()?;
-        self.clumps.check()?;
+        self.clumps.check(&self.particles, self.boundaries.len())?;
         let count = self.particles.len();
         self.neighbours.check(count, self.boundaries.len(), &self.clock)?;
         for rows in &self.coefficients {
@@ -322,13 +323,35 @@ impl Particles {
 }
 
 impl Clumps {
-    /// Whether these can be clumps.
-    fn check(&self) -> Result<(), StateFault> {
+    /// Whether these can be clumps of these particles, which have been checked, behind so many boundaries.
+    fn check(&self, particles: &Particles, boundaries: usize) -> Result<(), StateFault> {
+        self.check_rows()?;
+        let mut start = 0;
+        for (clump, &end) in self.ends.iter().enumerate() {
+            let spheres = self.spheres.get(start..end as usize).unwrap_or_default();
+            let is_member = |&sphere: &u32| {
+                let slot = particles.slot_of(sphere);
+                slot.is_some_and(|slot| particles.owner[slot] as usize == boundaries + 1 + clump)
+            };
+            demand(!spheres.is_empty() && spheres.iter().all(is_member), "clumps", clump, "spheres of its own")?;
+            start = end as usize;
+        }
+        let owned = |owner: &&u32| **owner as usize > boundaries && **owner != IMAGE;
+        let whole = start == self.spheres.len() && particles.owner.iter().filter(owned).count() == start;
+        demand(whole, "clumps", 0, "each sphere once")?;
+        demand(self.number.windows(2).all(|two| two[0] < two[1]), "clumps", 0, "ascending numbers")
+    }
+
+    /// Whether the rows are of one length, and of finite numbers.
+    fn check_rows(&self) -> Result<(), StateFault> {
         let Self { position, moments, velocity, orientation, .. } = self;
         let Self { angular_momentum, angular_velocity, force, moment, braking, .. } = self;
         let rows = [position, moments, velocity, orientation, angular_momentum, angular_velocity, force, moment];
         let lengths = rows.iter().map(|rows| rows.len() == self.len());
         demand_all(lengths, "clumps", "columns of one length")?;
+        let more = [self.scale.len(), self.shape.len(), self.number.len(), self.ends.len()];
+        demand_all(more.iter().map(|length| *length == self.len()), "clumps", "columns of one length")?;
+        all_finite(&self.scale, "clumps")?;
         rows.into_iter().try_for_each(|rows| finite(rows, "clumps"))?;
         let braked = braking.is_empty() || braking.len() == self.len();
         demand(

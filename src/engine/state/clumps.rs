@@ -1,10 +1,11 @@
 //! Clumps: rigid bodies whose spheres stand among the particles.
 
 use super::in_place::clone_in_place;
-use super::{Row, plain};
+use super::number::keep;
+use super::{GONE, InsertedParticle, Particles, Row, State, plain};
 use serde::{Deserialize, Serialize};
 
-/// Clumps in the scene's order, rows of 32 bytes.
+/// Clumps by ascending number, rows of 32 bytes.
 #[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Clumps {
     /// Mass centre, and the distance of the sphere centre furthest from it \[m\].
@@ -34,6 +35,42 @@ pub struct Clumps {
     /// Force and moment of global damping, which are among these; empty where nothing is damped.
     #[serde(with = "plain")]
     pub braking: Vec<[Row; 2]>,
+    /// All lengths over those of the shape.
+    #[serde(with = "plain")]
+    pub scale: Vec<f64>,
+    /// Index of the shape.
+    #[serde(with = "plain")]
+    pub shape: Vec<u32>,
+    /// Number in outputs: of the scene's own their index there, of those that come later the next one. None is used twice.
+    #[serde(with = "plain")]
+    pub number: Vec<u32>,
+    /// Indices of the spheres among the particles, clump by clump in the order of the shape.
+    #[serde(with = "plain")]
+    pub spheres: Vec<u32>,
+    /// Where those of each clump end.
+    #[serde(with = "plain")]
+    pub ends: Vec<u32>,
+}
+
+/// A clump to be added: a row of each kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClumpRows {
+    /// Mass centre, and the distance of the sphere centre furthest from it \[m\].
+    pub position: Row,
+    /// Moments of inertia about the principal axes \[kg m²\], and the radius of the smallest sphere \[m\].
+    pub moments: Row,
+    /// Velocity \[m/s\] and mass \[kg\].
+    pub velocity: Row,
+    /// Principal axes as a unit quaternion.
+    pub orientation: Row,
+    /// Angular momentum \[kg m²/s\].
+    pub angular_momentum: Row,
+    /// Angular velocity \[rad/s\].
+    pub angular_velocity: Row,
+    /// All lengths over those of the shape.
+    pub scale: f64,
+    /// Index of the shape.
+    pub shape: u32,
 }
 
 clone_in_place!(Clumps {
@@ -45,7 +82,12 @@ clone_in_place!(Clumps {
     angular_velocity,
     force,
     moment,
-    braking
+    braking,
+    scale,
+    shape,
+    number,
+    spheres,
+    ends
 });
 
 impl Clumps {
@@ -57,5 +99,103 @@ impl Clumps {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
+    }
+
+    /// Indices of the spheres of a clump among the particles.
+    #[inline(always)]
+    pub fn spheres_of(&self, clump: usize) -> &[u32] {
+        let start = if clump == 0 { 0 } else { self.ends[clump - 1] };
+        &self.spheres[start as usize..self.ends[clump] as usize]
+    }
+
+    /// The rows of a clump.
+    pub(crate) fn rows(&self, clump: usize) -> ClumpRows {
+        ClumpRows {
+            position: self.position[clump],
+            moments: self.moments[clump],
+            velocity: self.velocity[clump],
+            orientation: self.orientation[clump],
+            angular_momentum: self.angular_momentum[clump],
+            angular_velocity: self.angular_velocity[clump],
+            scale: self.scale[clump],
+            shape: self.shape[clump],
+        }
+    }
+
+    /// Appends a clump of this number, whose spheres are to be added.
+    pub(crate) fn add(&mut self, rows: &ClumpRows, number: u32) {
+        self.position.push(rows.position);
+        self.moments.push(rows.moments);
+        self.velocity.push(rows.velocity);
+        self.orientation.push(rows.orientation);
+        self.angular_momentum.push(rows.angular_momentum);
+        self.angular_velocity.push(rows.angular_velocity);
+        self.force.push([0.0; 4]);
+        self.moment.push([0.0; 4]);
+        if !self.braking.is_empty() {
+            self.braking.push([[0.0; 4]; 2]);
+        }
+        self.scale.push(rows.scale);
+        self.shape.push(rows.shape);
+        self.number.push(number);
+        self.ends.push(self.spheres.len() as u32);
+    }
+
+    /// Adds spheres (indices of particles) to the last clump.
+    pub(crate) fn add_spheres(&mut self, spheres: impl IntoIterator<Item = u32>) {
+        self.spheres.extend(spheres);
+        if let Some(end) = self.ends.last_mut() {
+            *end = self.spheres.len() as u32;
+        }
+    }
+
+    /// Keeps the clumps for which this holds, in their order.
+    fn keep(&mut self, stays: &[bool]) {
+        let (mut spheres, mut ends) = (Vec::new(), Vec::new());
+        for clump in (0..stays.len()).filter(|&clump| stays[clump]) {
+            spheres.extend_from_slice(self.spheres_of(clump));
+            ends.push(spheres.len() as u32);
+        }
+        (self.spheres, self.ends) = (spheres, ends);
+        let Self { position, moments, velocity, orientation, angular_momentum, .. } = self;
+        for rows in [position, moments, velocity, orientation, angular_momentum] {
+            keep(rows, |clump| stays[clump]);
+        }
+        for rows in [&mut self.angular_velocity, &mut self.force, &mut self.moment] {
+            keep(rows, |clump| stays[clump]);
+        }
+        keep(&mut self.braking, |clump| stays[clump]);
+        keep(&mut self.scale, |clump| stays[clump]);
+        for numbers in [&mut self.shape, &mut self.number] {
+            keep(numbers, |clump| stays[clump]);
+        }
+    }
+}
+
+impl State {
+    /// Appends a clump of this number and its spheres. `turning`: whether particles have an orientation.
+    pub(crate) fn add_clump(&mut self, rows: &ClumpRows, number: u32, spheres: &[InsertedParticle], turning: bool) {
+        let owner = (self.boundaries.len() + self.clumps.len()) as u32 + 1;
+        self.clumps.add(rows, number);
+        for sphere in spheres {
+            let index = self.add_particle(sphere, owner, turning);
+            self.clumps.add_spheres([index]);
+        }
+    }
+
+    /// Removes the clumps whose spheres are no longer there.
+    pub(super) fn remove_clumps(&mut self) {
+        let Self { particles: Particles { slot, owner, .. }, clumps, boundaries, .. } = self;
+        let stays: Vec<bool> =
+            (0..clumps.len()).map(|clump| slot[clumps.spheres_of(clump)[0] as usize] != GONE).collect();
+        if !stays.contains(&false) {
+            return;
+        }
+        clumps.keep(&stays);
+        for clump in 0..clumps.len() {
+            for &sphere in clumps.spheres_of(clump) {
+                owner[slot[sphere as usize] as usize] = (boundaries.len() + clump) as u32 + 1;
+            }
+        }
     }
 }

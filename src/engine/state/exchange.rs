@@ -10,6 +10,8 @@ pub struct Exchange {
     pub travel: f64,
     /// The number of the next particle that comes.
     pub next: u32,
+    /// That of the next clump.
+    pub next_clump: u32,
     /// What comes, in the order of the scene's insertions.
     pub feeds: Vec<InsertionProgress>,
     /// What went, in the order of the scene's outlets.
@@ -24,21 +26,24 @@ pub struct Exchange {
     pub net: NetExchange,
 }
 
-clone_in_place!(Exchange { travel, next, feeds, outlets, outside, passed, meters, net });
+clone_in_place!(Exchange { travel, next, next_clump, feeds, outlets, outside, passed, meters, net });
 
 /// A number of particles and their mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ParticleCount {
-    /// How many.
+    /// How many, spheres of clumps among them.
     pub count: u64,
+    /// How many clumps.
+    pub clumps: u64,
     /// Their mass \[kg\].
     pub mass: f64,
 }
 
 impl ParticleCount {
-    /// Counts a particle of this mass \[kg\].
-    pub(crate) fn add(&mut self, mass: f64) {
-        self.count += 1;
+    /// Counts a particle, or a clump of so many spheres, of this mass \[kg\].
+    pub(crate) fn add(&mut self, spheres: Option<usize>, mass: f64) {
+        self.count += spheres.unwrap_or(1) as u64;
+        self.clumps += u64::from(spheres.is_some());
         self.mass += mass;
     }
 }
@@ -60,8 +65,12 @@ pub struct InsertionProgress {
     pub dropped: f64,
     /// Numbers drawn from the generator so far.
     pub draws: u64,
-    /// Radius of the next particle, 0 where it has not been drawn \[m\].
+    /// Radius of what comes next, of a clump that of its bounding sphere; 0 where it has not been drawn \[m\].
     pub radius: f64,
+    /// Its kind among those of the insertion.
+    pub kind: u32,
+    /// How the own frame of a clump is turned, as a unit quaternion.
+    pub orientation: [f64; 4],
     /// Time step in which it was tried last.
     pub tried: u64,
     /// Whether there was no room then.
@@ -73,8 +82,10 @@ pub struct InsertionProgress {
 /// What passed a flow meter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct MeterCount {
-    /// Particles that passed towards the front, and back.
+    /// Particles that passed towards the front, and back, spheres of clumps among them.
     pub counts: [u64; 2],
+    /// Clumps that did.
+    pub clumps: [u64; 2],
     /// Mass that passed towards the front less what went back \[kg\].
     pub mass: f64,
     /// The same when the present communication step began \[kg\].
@@ -84,11 +95,29 @@ pub struct MeterCount {
 }
 
 impl MeterCount {
-    /// How many passed towards the front, less those that went back.
-    pub fn net_count(&self) -> i32 {
-        let [forth, back] = self.counts.map(|count| i64::try_from(count).unwrap_or(i64::MAX));
-        i32::try_from(forth - back).unwrap_or(if forth > back { i32::MAX } else { i32::MIN })
+    /// Counts a particle, or a clump of so many spheres, of this mass \[kg\] that passed towards the front or back.
+    pub(crate) fn add(&mut self, forward: bool, spheres: Option<usize>, mass: f64) {
+        let place = usize::from(!forward);
+        self.counts[place] += spheres.unwrap_or(1) as u64;
+        self.clumps[place] += u64::from(spheres.is_some());
+        self.mass += if forward { mass } else { -mass };
     }
+
+    /// How many particles passed towards the front, less those that went back.
+    pub fn net_count(&self) -> i32 {
+        net(self.counts)
+    }
+
+    /// How many clumps did.
+    pub fn net_clumps(&self) -> i32 {
+        net(self.clumps)
+    }
+}
+
+/// The first count less the second.
+fn net(counts: [u64; 2]) -> i32 {
+    let [forth, back] = counts.map(|count| i64::try_from(count).unwrap_or(i64::MAX));
+    i32::try_from(forth - back).unwrap_or(if forth > back { i32::MAX } else { i32::MIN })
 }
 
 /// What came less what went: what balances of mass, momentum and energy have to know.
@@ -152,7 +181,9 @@ impl Exchange {
             self.feeds.iter().flat_map(|feed| [feed.owed, feed.dropped, feed.radius, feed.travel, feed.present]);
         let meters = self.meters.iter().flat_map(|passed| [passed.mass, passed.mass_before, passed.mass_flow]);
         let rates = self.feeds.iter().flat_map(|feed| [feed.rate, feed.rate_of_rate]);
-        self.travel >= 0.0
+        let length = |feed: &InsertionProgress| feed.orientation.iter().map(|part| part * part).sum::<f64>();
+        self.feeds.iter().all(|feed| (length(feed) - 1.0).abs() < 1e-6)
+            && self.travel >= 0.0
             && self.travel.is_finite()
             && tallies.map(|tally| tally.mass).chain(feeds).all(|number| number >= 0.0 && number.is_finite())
             && meters.chain(rates).chain(self.net.numbers()).all(f64::is_finite)

@@ -29,7 +29,7 @@ pub use cell::CellState;
 pub use check::StateFault;
 pub(crate) use check::demand;
 pub use clock::{Clock, Underway};
-pub use clumps::Clumps;
+pub use clumps::{ClumpRows, Clumps};
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use exchange::Exchange;
 pub use foresight::Foresight;
@@ -141,11 +141,34 @@ impl State {
         of(a).is_some() && of(a) == of(b)
     }
 
+    /// The point of what stands in a slot that a periodic cell carries along \[m\]: its centre or, of a sphere of a clump, the mass centre of
+    /// the clump, as it is to an image of the sphere.
+    #[inline]
+    pub(crate) fn carried_point(&self, slot: usize) -> Row {
+        let place = self.particles.position[slot];
+        if self.clumps.is_empty() {
+            return place;
+        }
+        let original = self.particles.original(slot as u32) as usize;
+        let Some(clump) = self.clump(original) else { return place };
+        let (sphere, centre) = (self.particles.position[original], self.clumps.position[clump]);
+        [0, 1, 2, 3]
+            .map(|axis| if original == slot { centre[axis] } else { place[axis] + (centre[axis] - sphere[axis]) })
+    }
+
+    /// Where the mass centre of a clump has come to without being brought back into a periodic cell; elsewhere where it is \[m\].
+    pub(crate) fn unwrapped_clump(&self, clump: usize) -> [f64; 3] {
+        let [x, y, z, _] = self.clumps.position[clump];
+        let Some(cell) = &self.cell else { return [x, y, z] };
+        let [u, v, w] = cell.displacement(self.clumps.spheres_of(clump)[0]);
+        [x + u, y + v, z + w]
+    }
+
     /// Where the particle in a slot has come to without being brought back into a periodic cell; elsewhere where it is \[m\].
     pub(crate) fn unwrapped(&self, slot: usize) -> [f64; 3] {
         let [x, y, z, _] = self.particles.position[slot];
         let Some(cell) = &self.cell else { return [x, y, z] };
-        let [u, v, w] = cell.brought_back(self.particles.id[slot]);
+        let [u, v, w] = cell.displacement(self.particles.id[slot]);
         [x + u, y + v, z + w]
     }
 

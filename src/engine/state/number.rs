@@ -74,8 +74,8 @@ impl Particles {
         self.slot.get(index as usize).filter(|slot| **slot != GONE).map(|&slot| slot as usize)
     }
 
-    /// Appends a particle. `turning`: whether particles have an orientation. Returns its index.
-    pub(crate) fn add(&mut self, newcomer: &InsertedParticle, turning: bool) -> u32 {
+    /// Appends a particle of this owner. `turning`: whether particles have an orientation. Returns its index.
+    pub(crate) fn add(&mut self, newcomer: &InsertedParticle, owner: u32, turning: bool) -> u32 {
         let slot = self.len() as u32;
         let index = self.free.pop().unwrap_or_else(|| {
             self.slot.push(GONE);
@@ -97,7 +97,7 @@ impl Particles {
             self.orientation.push(Quaternion::identity().to_row());
         }
         self.material.push(newcomer.material);
-        self.owner.push(0);
+        self.owner.push(owner);
         self.id.push(index);
         index
     }
@@ -125,7 +125,7 @@ impl Particles {
 }
 
 /// Keeps the entries of a list for whose places this holds.
-fn keep<T>(list: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
+pub(super) fn keep<T>(list: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
     let mut place = 0;
     list.retain(|_| {
         place += 1;
@@ -166,19 +166,35 @@ fn shorten(ends: &mut [u32], stays: &[bool]) {
 }
 
 impl State {
-    /// Whether what is in each slot goes, where of the particles these go: with them go their images in a periodic cell.
-    pub(crate) fn with_images(&self, goes: &[bool]) -> Vec<bool> {
+    /// Adds a particle of this owner where it is. `turning`: whether particles have an orientation. Returns its index.
+    pub(crate) fn add_particle(&mut self, newcomer: &InsertedParticle, owner: u32, turning: bool) -> u32 {
+        let index = self.particles.add(newcomer, owner, turning);
+        if let Some(cell) = &mut self.cell {
+            cell.begin_at(index);
+        }
+        index
+    }
+
+    /// What goes in all where of the particles these go (slots): all spheres of their clumps, and images in a periodic cell.
+    pub(crate) fn with_all(&self, goes: &[bool]) -> Vec<bool> {
         let mut goes = goes.to_vec();
+        for clump in 0..self.clumps.len() {
+            let slots =
+                self.clumps.spheres_of(clump).iter().map(|&sphere| self.particles.slot[sphere as usize] as usize);
+            if slots.clone().any(|slot| goes[slot]) {
+                slots.for_each(|slot| goes[slot] = true);
+            }
+        }
         for (&image, &original) in self.cell.iter().flat_map(|cell| cell.images.iter().zip(&cell.originals)) {
             goes[image as usize] |= goes[original as usize];
         }
         goes
     }
 
-    /// Removes particles (slots), their images in a periodic cell, and their entries in every list. The caller makes anew what depends on
-    /// positions.
+    /// Removes particles (slots), all spheres of their clumps, their images in a periodic cell, and their entries in every list. The caller
+    /// makes anew what depends on positions.
     pub(crate) fn remove(&mut self, goes: &[bool]) {
-        let goes = &self.with_images(goes)[..];
+        let goes = &self.with_all(goes)[..];
         let (mut stay_before, mut count) = (Vec::with_capacity(goes.len() + 1), 0);
         for goes in goes {
             stay_before.push(count);
@@ -187,6 +203,7 @@ impl State {
         stay_before.push(count);
         let moved = Moved { goes, stay_before };
         self.particles.remove(goes);
+        self.remove_clumps();
         if let Some(cell) = &mut self.cell {
             let stays: Vec<bool> = cell.images.iter().map(|&image| moved.stays(image)).collect();
             keep(&mut cell.displaced, |image| stays[image]);

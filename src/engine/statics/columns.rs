@@ -39,6 +39,10 @@ pub(super) fn loads<'a>(state: &'a State, network: &'a Network) -> impl Iterator
                 let rows = [&state.particles.force, &state.particles.torque].map(|rows| rows[slot as usize]);
                 (rows[0][..3].try_into().unwrap_or_default(), rows[1][..3].try_into().unwrap_or_default())
             }
+            ProbeBody::Clump(clump) => {
+                let rows = [&state.clumps.force, &state.clumps.moment].map(|rows| rows[clump as usize]);
+                (rows[0][..3].try_into().unwrap_or_default(), rows[1][..3].try_into().unwrap_or_default())
+            }
             ProbeBody::Cell => ([0.0; 3], [0.0; 3]),
         };
         let all = [force[0], force[1], force[2], torque[0] / radius, torque[1] / radius, torque[2] / radius];

@@ -191,7 +191,8 @@ impl Rest {
                 return Ok(Self { probe, way, network, equations, rattlers });
             }
             rattlers.extend(follow.iter().map(|&body| network.ids[body]));
-            probe.leave_out(follow.iter().filter_map(|&body| network.bodies[body].slot()));
+            let slots: Vec<u32> = follow.iter().filter_map(|&body| network.bodies[body].slot(probe.rest())).collect();
+            probe.leave_out(slots.into_iter());
         }
     }
 

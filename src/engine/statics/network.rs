@@ -9,7 +9,7 @@ const NONE: u32 = u32::MAX;
 
 /// The bodies that are free to move.
 pub(super) struct Network {
-    /// Particles, and groups that forces move.
+    /// Particles, and groups and clumps that forces move.
     pub(super) bodies: Vec<ProbeBody>,
     /// Their radii, which scale rotations \[m\].
     pub(super) radii: Vec<f64>,
@@ -26,7 +26,7 @@ pub(super) struct Network {
     pub(super) pinned: Vec<[bool; 6]>,
     /// Particles that nothing holds: numbers in the scene's order.
     pub(super) rattlers: Vec<u32>,
-    /// Number of each of the bodies in the scene's order, of groups that of their first particle.
+    /// Number of each of the bodies in the scene's order, of groups and clumps that of their first particle.
     pub(super) ids: Vec<u32>,
     /// The largest number among those by whose difference forces come about \[m\].
     pub(super) reach: f64,
@@ -49,7 +49,7 @@ impl Network {
             .iter()
             .map(|(first, second)| (places[*first as usize], second.map(|second| places[second as usize])))
             .collect();
-        // A group that forces move stands in the place of its first particle.
+        // A group or clump that forces move stands in the place of its first particle.
         let mut stands_for: Vec<usize> = (0..particles.len()).collect();
         let mut group_at = vec![None; particles.len()];
         for (index, body) in probe.bodies().iter().enumerate() {
@@ -59,26 +59,35 @@ impl Network {
             slots().for_each(|slot| stands_for[slot] = first);
             group_at[first] = Some((BoundaryIndex(index as u32), body));
         }
+        let mut clump_at = vec![None; particles.len()];
+        for clump in 0..state.clumps.len() {
+            let slots = state.clumps.spheres_of(clump).iter().map(|&sphere| particles.slot[sphere as usize] as usize);
+            let first = slots.clone().next().unwrap_or_default();
+            slots.skip(1).for_each(|slot| {
+                stands_for[slot] = first;
+                touches[first] += touches[slot];
+            });
+            clump_at[first] = Some(clump);
+        }
         let of_body = |(slot, shift): Place| (stands_for[slot], shift);
         let links: Vec<(Place, Option<Place>)> =
             links.into_iter().map(|(first, second)| (of_body(first), second.map(of_body))).collect();
-        let moves = |slot: usize| particles.owner[slot] == 0 || group_at[slot].is_some();
+        let is_loose = |slot: usize| particles.owner[slot] == 0 || clump_at[slot].is_some();
+        let moves = |slot: usize| is_loose(slot) || group_at[slot].is_some();
         let stays = |slot: usize| {
             group_at[slot].is_some_and(|(_, body)| body.freedoms() != [true; 6] || body.springs() != [0.0; 6])
         };
         let Held { held, floating } = held((0..particles.len()).map(stays).collect(), &moves, &links);
         let slots: Vec<usize> =
             (0..particles.len()).filter(|&slot| moves(slot) && (held[slot] || group_at[slot].is_some())).collect();
-        let mut rattlers: Vec<u32> = (0..particles.len())
-            .filter(|&slot| particles.owner[slot] == 0 && !held[slot])
-            .map(|slot| particles.id[slot])
-            .collect();
+        let mut rattlers: Vec<u32> =
+            (0..particles.len()).filter(|&slot| is_loose(slot) && !held[slot]).map(|slot| particles.id[slot]).collect();
         rattlers.sort_unstable();
         let mut place = vec![NONE; particles.len()];
         for (body, &slot) in slots.iter().enumerate() {
             place[slot] = body as u32;
         }
-        let spins = group_at.iter().flatten().any(|(_, body)| body.spins());
+        let spins = group_at.iter().flatten().any(|(_, body)| body.spins()) || !state.clumps.is_empty();
         let (mut bodies, mut radii, mut pinned) = (Vec::new(), Vec::new(), Vec::new());
         for &slot in &slots {
             let radius = particles.position[slot][3];
@@ -89,9 +98,10 @@ impl Network {
                     pinned.push(body.freedoms().map(|is_free| !is_free));
                 }
                 None => {
-                    let (shifts, turns) = (!floating.contains(&slot), probe.turns());
-                    bodies.push(ProbeBody::Particle(slot as u32));
-                    radii.push(radius);
+                    let (shifts, clump) = (!floating.contains(&slot), clump_at[slot]);
+                    let turns = clump.is_some() || probe.turns();
+                    bodies.push(clump.map_or(ProbeBody::Particle(slot as u32), |it| ProbeBody::Clump(it as u32)));
+                    radii.push(clump.map_or(radius, |it| radius.max(state.clumps.position[it][3])));
                     pinned.push([!shifts, !shifts, !shifts, !turns, !turns, !turns]);
                 }
             }
@@ -111,6 +121,7 @@ impl Network {
         // Places of particles are compared with each other, which costs no digits, or with those of surfaces and faces.
         let alone = state.cell.is_none()
             && group_at.iter().all(Option::is_none)
+            && state.clumps.is_empty()
             && links.iter().all(|(_, second)| second.is_some());
         let reach = match alone {
             true => 4.0 * radii.iter().copied().fold(0.0, f64::max),

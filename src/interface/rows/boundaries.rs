@@ -1,6 +1,6 @@
 //! Variables of each boundary and of its nodes.
 
-use super::exchange::{EXCHANGED, EXCHANGED_MASS};
+use super::exchange::{EXCHANGED, EXCHANGED_CLUMPS, EXCHANGED_MASS};
 use super::row::{At, Each, OF_AXIS, OUTPUT, Row, Write, count};
 use crate::engine::simulation::Input;
 use crate::engine::state::State;
@@ -90,7 +90,7 @@ fn moment_rate(state: &State, at: At) -> f64 {
 }
 
 /// Variables of each boundary, inputs first.
-pub(super) static OF_BOUNDARIES: [Row; 22] = [
+pub(super) static OF_BOUNDARIES: [Row; 23] = [
     Row {
         name: "displacement",
         description: "displacement of {boundary} along {axis} since the scene's time 0, to be reached at the end of the \
@@ -289,6 +289,14 @@ pub(super) static OF_BOUNDARIES: [Row; 22] = [
         exists: removes,
         read: |now, at| count(now.exchanged(|exchange| exchange.passed[at.boundary.index()].count)),
         ..EXCHANGED
+    },
+    Row {
+        name: "outside.clumps",
+        each: Each::Boundary,
+        description: "number of clumps taken away since the start because they came through {boundary}",
+        exists: |scene, at| scene.has_clumps() && removes(scene, at),
+        read: |now, at| count(now.exchanged(|exchange| exchange.passed[at.boundary.index()].clumps)),
+        ..EXCHANGED_CLUMPS
     },
     Row {
         name: "outside.mass",

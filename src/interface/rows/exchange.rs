@@ -29,16 +29,20 @@ pub(super) const EXCHANGED: Row = Row { name: "count", follows_inputs_at_start: 
 pub(super) const EXCHANGED_MASS: Row =
     Row { name: "mass", quantity: Quantity::Mass, follows_inputs_at_start: false, ..OUTPUT };
 
+/// A number of clumps among them.
+pub(super) const EXCHANGED_CLUMPS: Row =
+    Row { name: "clumps", follows_inputs_at_start: false, exists: |scene, _| scene.has_clumps(), ..COUNT };
+
 /// Variables of each insertion.
-pub(super) static OF_INSERTIONS: [Row; 4] = [
+pub(super) static OF_INSERTIONS: [Row; 5] = [
     Row {
         description: "mass that comes by {owner} in each second, held in a communication step, or the mean of what changes at its rate",
         exists: |scene, at| matches!(scene.insertions[at.place()].amount, Amount::MassRate(_)),
         ..RATE
     },
     Row {
-        description: "number of particles that come by {owner} in each second, held in a communication step, or the mean of what \
-                      changes at its rate",
+        description: "number of particles, or clumps, that come by {owner} in each second, held in a communication step, or the mean \
+                      of what changes at its rate",
         quantity: Quantity::CountRate,
         exists: |scene, at| matches!(scene.insertions[at.place()].amount, Amount::CountRate(_)),
         ..RATE
@@ -51,6 +55,13 @@ pub(super) static OF_INSERTIONS: [Row; 4] = [
     },
     Row {
         each: Each::Insertion,
+        description: "number of clumps that came by {owner} since the start",
+        exists: |scene, at| scene.insertions[at.place()].has_clumps(),
+        read: |now, at| count(now.exchanged(|exchange| exchange.feeds[at.place()].came.clumps)),
+        ..EXCHANGED_CLUMPS
+    },
+    Row {
+        each: Each::Insertion,
         description: "mass of the particles that came by {owner} since the start",
         minimum: Some(0.0),
         read: |now, at| Value::Real(now.exchanged(|exchange| exchange.feeds[at.place()].came.mass)),
@@ -59,12 +70,18 @@ pub(super) static OF_INSERTIONS: [Row; 4] = [
 ];
 
 /// Variables of each outlet.
-pub(super) static OF_OUTLETS: [Row; 2] = [
+pub(super) static OF_OUTLETS: [Row; 3] = [
     Row {
         each: Each::Outlet,
         description: "number of particles that {owner} took away since the start",
         read: |now, at| count(now.exchanged(|exchange| exchange.outlets[at.place()].count)),
         ..EXCHANGED
+    },
+    Row {
+        each: Each::Outlet,
+        description: "number of clumps that {owner} took away since the start",
+        read: |now, at| count(now.exchanged(|exchange| exchange.outlets[at.place()].clumps)),
+        ..EXCHANGED_CLUMPS
     },
     Row {
         each: Each::Outlet,
@@ -76,7 +93,7 @@ pub(super) static OF_OUTLETS: [Row; 2] = [
 ];
 
 /// Variables of each flow meter.
-pub(super) static OF_METERS: [Row; 3] = [
+pub(super) static OF_METERS: [Row; 4] = [
     Row {
         name: "mass_flow",
         each: Each::Meter,
@@ -99,16 +116,30 @@ pub(super) static OF_METERS: [Row; 3] = [
         read: |now, at| Value::Integer(now.exchanged(|exchange| exchange.meters[at.place()].net_count())),
         ..EXCHANGED
     },
+    Row {
+        each: Each::Meter,
+        description: "number of clumps that passed {owner} towards its front since the start, less those that went back",
+        minimum: None,
+        read: |now, at| Value::Integer(now.exchanged(|exchange| exchange.meters[at.place()].net_clumps())),
+        ..EXCHANGED_CLUMPS
+    },
 ];
 
 /// Variables of what lies outside of the domain.
-pub(super) static OF_DOMAIN: [Row; 2] = [
+pub(super) static OF_DOMAIN: [Row; 3] = [
     Row {
         name: "domain.count",
         description: "number of particles taken away since the start because they were outside of the domain",
         exists: |scene, _| scene.domain.is_some() && scene.outside == Outside::Remove,
         read: |now, _| count(now.exchanged(|exchange| exchange.outside.count)),
         ..EXCHANGED
+    },
+    Row {
+        name: "domain.clumps",
+        description: "number of clumps taken away since the start because they were outside of the domain",
+        exists: |scene, _| scene.has_clumps() && scene.domain.is_some() && scene.outside == Outside::Remove,
+        read: |now, _| count(now.exchanged(|exchange| exchange.outside.clumps)),
+        ..EXCHANGED_CLUMPS
     },
     Row {
         name: "domain.mass",

@@ -19,7 +19,7 @@ use crate::output::results::files::Checkpoint;
 use crate::output::results::schedule::Schedule;
 use crate::output::run::remarks::remarks;
 use crate::scene::exchange::{Amount, Outside};
-use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Insertion, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Insertion, Kind, Scene, Step};
 use rules::rules;
 use serde::Serialize;
 use std::fmt;
@@ -275,14 +275,20 @@ fn exchange(scene: &Scene) -> Vec<String> {
 
 /// An insertion in one line.
 fn insertion(insertion: &Insertion) -> String {
-    let [least, most] = insertion.sizes.bounds();
-    let radii = if least == most { format!("{least:?} m") } else { format!("{least:?} to {most:?} m") };
+    let kind = |kind: &Kind| {
+        let [least, most] = kind.sizes.bounds();
+        let radii = if least == most { format!("{least:?} m") } else { format!("{least:?} to {most:?} m") };
+        let clump = kind.clump.as_ref().map(|clump| format!("clump {} of bounding ", clump.shape.name));
+        format!("{}radius {radii}", clump.unwrap_or_default())
+    };
+    let kinds: Vec<String> = insertion.kinds.iter().map(kind).collect();
+    let what = if insertion.has_clumps() { "clumps" } else { "particles" };
     let amount = match insertion.amount {
         Amount::MassRate(rate) => format!("{rate:?} kg/s"),
-        Amount::CountRate(rate) => format!("{rate:?} particles a second"),
+        Amount::CountRate(rate) => format!("{rate:?} {what} a second"),
         Amount::Mass(mass) => format!("{mass:?} kg"),
     };
-    format!("insertion {}: {amount}, radius {radii}", insertion.name)
+    format!("insertion {}: {amount}, {}", insertion.name, kinds.join(", "))
 }
 
 /// A boundary in one line.

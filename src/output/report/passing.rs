@@ -65,13 +65,18 @@ fn share_present(amount: Amount) -> f64 {
     }
 }
 
-/// How many particles an insertion brings in so long a time, if all find room.
+/// How many particles an insertion brings in so long a time, spheres of clumps among them, if all find room.
 fn count(scene: &Scene, insertion: &Insertion, duration: f64) -> f64 {
     let mut random = generator_after(scene.run.seed, &format!("forecast.{}", insertion.name), 0);
     let mut next = || uniform(&mut random);
-    let masses: f64 = (0..SAMPLES).map(|_| insertion.mass(insertion.sizes.draw(&mut next))).sum();
-    let mean = masses / f64::from(SAMPLES);
-    match insertion.amount {
+    let (mut masses, mut spheres) = (0.0, 0);
+    for _ in 0..SAMPLES {
+        let (kind, radius) = insertion.draw(&mut next);
+        let kind = &insertion.kinds[kind as usize];
+        (masses, spheres) = (masses + kind.mass(radius), spheres + kind.spheres());
+    }
+    let [mean, each] = [masses, spheres as f64].map(|sum| sum / f64::from(SAMPLES));
+    each * match insertion.amount {
         Amount::CountRate(rate) => rate * duration,
         Amount::MassRate(rate) => rate * duration / mean,
         Amount::Mass(mass) => mass / mean,
@@ -82,7 +87,7 @@ fn count(scene: &Scene, insertion: &Insertion, duration: f64) -> f64 {
 fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
     let (scene, mut state) = (simulation.scene(), simulation.state().clone());
     let sizes = |state: &crate::engine::state::State| {
-        let frame = frames::particles(scene, &state.particles, None).encode()?.len();
+        let frame = frames::particles(scene, (&state.particles, None), None).encode()?.len();
         Ok([frame as f64, state.to_bytes(0).len() as f64])
     };
     let before = sizes(&state)?;
@@ -91,7 +96,7 @@ fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
         let [x, y, z, u, v, w] = [(); 6].map(|()| uniform(&mut random));
         let (position, velocity) = (Vector::new(x, y, z).row_with(uniform(&mut random)), [u, v, w, 1.0]);
         let newcomer = InsertedParticle { position, velocity, inertia: 1.0, material: 0, number };
-        state.particles.add(&newcomer, !state.particles.orientation.is_empty());
+        state.add_particle(&newcomer, 0, !state.particles.orientation.is_empty());
     }
     let after = sizes(&state)?;
     Ok([0, 1].map(|place| (after[place] - before[place]) / f64::from(SAMPLES)))

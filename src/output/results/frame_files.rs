@@ -32,7 +32,7 @@ impl FrameFiles {
     /// Takes up the frames that are kept.
     pub(crate) fn open(path: &Path, scene: &Scene, kept: &[Frame]) -> Result<Self, OutputError> {
         let bonds = !scene.bonds.is_empty();
-        let (cell, clumps) = (scene.cell.is_some(), !scene.clumps.is_empty());
+        let (cell, clumps) = (scene.cell.is_some(), scene.has_clumps());
         let wanted = [true, scene.output.contacts, bonds, scene.output.boundaries, cell, clumps];
         let kinds = FRAMES.into_iter().zip(wanted).filter(|(_, wanted)| *wanted);
         let series = kinds.map(|(name, _)| Series::open(path, name, kept)).collect::<Result<_, _>>()?;

@@ -7,7 +7,7 @@ use crate::base::geometry::{Lattice, Quaternion};
 use crate::engine::clumps::{force_on, mass_of};
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
 use crate::engine::state::{CellState, Clumps, Particles};
-use crate::scene::{Clump, Scene};
+use crate::scene::Scene;
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
 pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
@@ -25,17 +25,23 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
     };
     let loads = || (touching.as_deref().unwrap_or_default(), living.as_deref().unwrap_or_default());
     [
-        Some(particles(scene, &bodies, lies.as_deref())),
+        Some(particles(scene, (&bodies, rigid.as_deref()), lies.as_deref())),
         touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, &bodies, touching)),
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
         moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
         lies.as_deref().map(cell),
-        rigid.as_deref().map(|rigid| clumps(scene, rigid)),
+        rigid.as_deref().map(|rigid| clumps(scene, rigid, lies.as_deref())),
     ]
 }
 
 /// All particles, in the order of the scene whatever their order in memory, those that came later behind them.
-pub(crate) fn particles(scene: &Scene, particles: &Particles, cell: Option<&CellState>) -> PointCloud {
+pub(crate) fn particles(
+    scene: &Scene,
+    (particles, clumps): (&Particles, Option<&Clumps>),
+    cell: Option<&CellState>,
+) -> PointCloud {
+    let none = Clumps::default();
+    let rigid = clumps.unwrap_or(&none);
     let slots = || particles.slots();
     let [points, unwrapped] = places(scene, particles, cell);
     let three = |rows: &[[f64; 4]]| slots().flat_map(|slot| rows[slot].into_iter().take(3)).collect::<Vec<_>>();
@@ -50,7 +56,7 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles, cell: Option<&Cell
         ("angular_velocity", Values::Vectors(three(&particles.angular_velocity))),
         ("force", Values::Vectors(slots().flat_map(|slot| force_on(scene, particles, slot)).collect())),
         ("torque", Values::Vectors(three(&particles.torque))),
-        ("mass", Values::Scalars(slots().map(|slot| mass_of(scene, particles, slot)).collect())),
+        ("mass", Values::Scalars(slots().map(|slot| mass_of(scene, (particles, rigid), slot)).collect())),
         (
             "group",
             Values::Integers(
@@ -58,8 +64,11 @@ pub(crate) fn particles(scene: &Scene, particles: &Particles, cell: Option<&Cell
             ),
         ),
     ];
-    let clumps = (!scene.clumps.is_empty())
-        .then(|| ("clump", Values::Integers(slots().map(|slot| (owner(slot) - groups).max(-1)).collect())));
+    let of_clump = |slot: usize| {
+        let clump = usize::try_from(owner(slot) - groups).ok().and_then(|clump| rigid.number.get(clump));
+        clump.map_or(-1, |&number| i64::from(number))
+    };
+    let clumps = clumps.map(|_| ("clump", Values::Integers(slots().map(of_clump).collect())));
     let of_set = |slot: usize| scene.particles.get(particles.id[slot] as usize).map_or(-1, |own| i64::from(own.set.0));
     let sets = (scene.sets.len() > 1).then(|| ("set", Values::Integers(slots().map(of_set).collect())));
     let orientation = (!particles.orientation.is_empty()).then(|| {
@@ -101,28 +110,33 @@ fn places(scene: &Scene, particles: &Particles, cell: Option<&CellState>) -> [Ve
 }
 
 /// The clumps: mass centres, and how their own frames are turned.
-fn clumps(scene: &Scene, clumps: &Clumps) -> PointCloud {
+fn clumps(scene: &Scene, clumps: &Clumps, cell: Option<&CellState>) -> PointCloud {
     let three = |rows: &[[f64; 4]]| rows.iter().flat_map(|[x, y, z, _]| [*x, *y, *z]).collect::<Vec<_>>();
-    let turned = |(row, clump): (&[f64; 4], &Clump)| {
-        let axes = Quaternion::from_row(scene.clump_shapes[clump.shape as usize].axes);
+    let turned = |(row, shape): (&[f64; 4], &u32)| {
+        let axes = Quaternion::from_row(scene.clump_shapes[*shape as usize].axes);
         (Quaternion::from_row(*row) * axes.conjugate()).to_row()
     };
-    let all = scene.clumps.iter();
-    PointCloud {
-        points: three(&clumps.position),
-        fields: vec![
-            ("clump", Values::Integers((0..clumps.len() as i64).collect())),
-            ("shape", Values::Integers(all.clone().map(|it| i64::from(it.shape)).collect())),
-            ("scale", Values::Scalars(all.clone().map(|it| it.scale).collect())),
-            ("mass", Values::Scalars(all.clone().map(|it| it.mass).collect())),
-            ("orientation", Values::Quaternions(clumps.orientation.iter().zip(all).flat_map(turned).collect())),
-            ("velocity", Values::Vectors(three(&clumps.velocity))),
-            ("angular_velocity", Values::Vectors(three(&clumps.angular_velocity))),
-            ("force", Values::Vectors(three(&clumps.force))),
-            ("moment", Values::Vectors(three(&clumps.moment))),
-        ],
-        ..PointCloud::default()
-    }
+    let numbers = |numbers: &[u32]| Values::Integers(numbers.iter().map(|&number| i64::from(number)).collect());
+    let unwrapped = cell.map(|cell| {
+        let place = |clump: usize| {
+            let shift = cell.displacement(clumps.spheres_of(clump)[0]);
+            [0, 1, 2].map(|axis| clumps.position[clump][axis] + shift[axis])
+        };
+        ("unwrapped", Values::Vectors((0..clumps.len()).flat_map(place).collect()))
+    });
+    let fields = vec![
+        ("clump", numbers(&clumps.number)),
+        ("shape", numbers(&clumps.shape)),
+        ("scale", Values::Scalars(clumps.scale.clone())),
+        ("mass", Values::Scalars(clumps.velocity.iter().map(|row| row[3]).collect())),
+        ("orientation", Values::Quaternions(clumps.orientation.iter().zip(&clumps.shape).flat_map(turned).collect())),
+        ("velocity", Values::Vectors(three(&clumps.velocity))),
+        ("angular_velocity", Values::Vectors(three(&clumps.angular_velocity))),
+        ("force", Values::Vectors(three(&clumps.force))),
+        ("moment", Values::Vectors(three(&clumps.moment))),
+    ];
+    let fields = fields.into_iter().chain(unwrapped).collect();
+    PointCloud { points: three(&clumps.position), fields, ..PointCloud::default() }
 }
 
 /// The edges of the cell as lines.

@@ -21,6 +21,6 @@ pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
     let boundaries =
         output.boundaries.then(|| (simulation.state().boundaries.clone(), simulation.state().nodes.clone()));
     let cell = simulation.state().cell.clone().map(Box::new);
-    let clumps = (!scene.clumps.is_empty()).then(|| Box::new(simulation.state().clumps.clone()));
+    let clumps = scene.has_clumps().then(|| Box::new(simulation.state().clumps.clone()));
     Job::Frame { time, particles, contacts, bonds, boundaries, cell, clumps }
 }

@@ -122,6 +122,7 @@ fn full(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let told = scene.insertions.iter().zip(feeds).filter(|(_, feed)| feed.dropped > 0.0);
     told.map(|(insertion, feed)| {
         let what = match insertion.amount {
+            Amount::CountRate(_) if insertion.has_clumps() => "clumps",
             Amount::CountRate(_) => "particles",
             Amount::MassRate(_) | Amount::Mass(_) => "kg",
         };

@@ -294,10 +294,9 @@ impl Measure {
         let (now, elapsed) = (velocities(simulation), simulation.time() - *time);
         let particles = &simulation.state().particles;
         let (mut sum, mut count) = (0.0, 0_usize);
-        let mass =
-            |slot: &u32| Some(particles.velocity[*slot as usize][3]).filter(|_| particles.owner[*slot as usize] == 0);
+        let mass = |slot: usize| Some(particles.velocity[slot][3]).filter(|_| particles.owner[slot] == 0);
         let of_clumps = simulation.state().clumps.velocity.iter().map(|row| Some(row[3]));
-        let masses = particles.slot.iter().map(mass).chain(of_clumps);
+        let masses = particles.slots().map(mass).chain(of_clumps);
         for ((mass, now), before) in masses.zip(&now).zip(&*before) {
             if let Some(mass) = mass {
                 let change = [0, 1, 2].map(|axis| now[axis] - before[axis]);
@@ -317,7 +316,7 @@ impl Measure {
 /// Velocities of the particles in the order of their numbers, then of the clumps \[m/s\].
 fn velocities(simulation: &Simulation) -> Vec<[f64; 3]> {
     let particles = &simulation.state().particles;
-    let rows = particles.slot.iter().map(|slot| particles.velocity[*slot as usize]);
+    let rows = particles.slots().map(|slot| particles.velocity[slot]);
     rows.chain(simulation.state().clumps.velocity.iter().copied()).map(|[x, y, z, _]| [x, y, z]).collect()
 }
 
@@ -422,7 +421,7 @@ fn why_not(simulation: &Simulation) -> String {
 fn unbalanced_force(simulation: &mut Simulation) -> f64 {
     let held = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
     let free = |boundary: &Boundary| boundary.axes.iter().any(AxisMotion::is_free);
-    let nothing_moves = held && simulation.scene().clumps.is_empty() && !simulation.scene().boundaries.iter().any(free);
+    let nothing_moves = held && simulation.state().clumps.is_empty() && !simulation.scene().boundaries.iter().any(free);
     if nothing_moves { 0.0 } else { simulation.undamped_unbalanced_force() }
 }
 

@@ -4,10 +4,13 @@ use super::ClumpShape;
 use super::moments::principal;
 use super::union::moments;
 use crate::base::document::Mistake;
+use crate::base::geometry::Quaternion;
+use crate::base::number::Vector;
 use crate::base::quantity::{Numbers, Positive, Triple};
 use crate::scene::file::Inertia;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// Most spheres that a clump may have.
@@ -18,7 +21,9 @@ const MOST_SPHERES: usize = 256;
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct ClumpKeys {
     /// Its spheres, in its own frame.
-    spheres: Vec<SphereKeys>,
+    spheres: Option<Vec<SphereKeys>>,
+    /// A file of them.
+    pub(in crate::scene) file: Option<String>,
     /// Material where a set names none.
     pub(in crate::scene) material: Option<String>,
     /// Density where a set gives none \[kg/m³\].
@@ -42,17 +47,36 @@ struct SphereKeys {
 }
 
 impl ClumpKeys {
-    /// The shape; reports what is wrong.
-    pub(in crate::scene) fn shape(&self, name: &str, report: &mut dyn FnMut(&str, Mistake)) -> Option<ClumpShape> {
+    /// The shape, of the spheres that the file of the table has, if it names one; reports what is wrong.
+    pub(in crate::scene) fn shape(
+        &self,
+        name: &str,
+        filed: Option<Vec<([f64; 3], f64)>>,
+        report: &mut dyn FnMut(&str, Mistake),
+    ) -> Option<ClumpShape> {
+        let written = |list: &Vec<SphereKeys>| list.iter().map(|it| (it.position.get(), it.radius.get())).collect();
+        let spheres: Vec<_> = match (self.spheres.as_ref().map(written), filed) {
+            (Some(spheres), None) | (None, Some(spheres)) => spheres,
+            (Some(_), Some(_)) => {
+                let (found, expected) = ("spheres and file".to_owned(), "one of them".to_owned());
+                report("spheres", Mistake::Unexpected { found, expected });
+                return None;
+            }
+            (None, None) => {
+                let expected = "spheres = [{ position, radius }, ..] or file = \"..\" says what it is".to_owned();
+                report("spheres", Mistake::Missing { expected });
+                return None;
+            }
+        };
         let mut unexpected = |key: &str, found: String, expected: &str| {
             report(key, Mistake::Unexpected { found, expected: expected.to_owned() });
         };
-        let count = self.spheres.len();
+        let count = spheres.len();
         if count == 0 || count > MOST_SPHERES {
-            unexpected("spheres", format!("{count}"), &format!("1 to {MOST_SPHERES} spheres"));
+            let key = if self.file.is_some() { "file" } else { "spheres" };
+            unexpected(key, format!("{count}"), &format!("1 to {MOST_SPHERES} spheres"));
             return None;
         }
-        let spheres: Vec<_> = self.spheres.iter().map(|it| (it.position.get(), it.radius.get())).collect();
         if let (Some(_), None) = (self.inertia, self.mass) {
             report("mass", Mistake::Missing { expected: "an inertia is that of a mass".to_owned() });
             return None;
@@ -99,13 +123,32 @@ impl ClumpKeys {
 
 /// How the own frames of clumps are turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(in crate::scene) enum OrientationKey {
+pub enum OrientationKey {
     /// By this unit quaternion: scalar, x, y, z.
     Turned([f64; 4]),
     /// Principal axes along x, y, z.
     PrincipalAxes,
     /// All orientations alike, by the seed of the scene.
     Random,
+}
+
+impl OrientationKey {
+    /// How the own frame of a clump of this shape is turned. `uniform` hands out numbers from 0 to below 1, all equally likely.
+    pub(crate) fn turn(self, shape: &ClumpShape, uniform: &mut dyn FnMut() -> f64) -> Quaternion {
+        match self {
+            Self::Turned(row) => Quaternion::from_row(row),
+            Self::PrincipalAxes => Quaternion::from_row(shape.axes).conjugate(),
+            Self::Random => any_turn(uniform),
+        }
+    }
+}
+
+/// A turn of which all are alike likely (Shoemake 1992).
+fn any_turn(uniform: &mut dyn FnMut() -> f64) -> Quaternion {
+    let [share, one, other] = [0; 3].map(|_| uniform());
+    let (near, far) = ((1.0 - share).sqrt(), share.sqrt());
+    let vector = Vector::new(near * libm::sin(TAU * one), near * libm::cos(TAU * one), far * libm::sin(TAU * other));
+    Quaternion { scalar: far * libm::cos(TAU * other), vector }.normalised()
 }
 
 /// What is expected.

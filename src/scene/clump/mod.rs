@@ -6,7 +6,8 @@ mod keys;
 mod moments;
 mod union;
 
-pub(in crate::scene) use keys::{ClumpKeys, OrientationKey, unit};
+pub use keys::OrientationKey;
+pub(in crate::scene) use keys::{ClumpKeys, unit};
 
 use super::{Mistake, Particle, ParticleShape, SceneDraft};
 use crate::base::geometry::Quaternion;
@@ -98,6 +99,15 @@ impl Clump {
         shape.arm(sphere).map(|part| self.scale * part)
     }
 
+    /// Its spheres: centres and radii \[m\].
+    pub(crate) fn spheres(&self, shape: &ClumpShape) -> Vec<[f64; 4]> {
+        let sphere = |index: usize| {
+            let [[x, y, z], _] = self.placed(shape, index);
+            [x, y, z, self.scale * shape.spheres[index].1]
+        };
+        (0..shape.spheres.len()).map(sphere).collect()
+    }
+
     /// Where a sphere stands at the start \[m\], and its velocity \[m/s\].
     pub fn placed(&self, shape: &ClumpShape, sphere: usize) -> [[f64; 3]; 2] {
         let arm = Quaternion::from_row(self.orientation).turn(self.arm(shape, sphere).into());
@@ -107,6 +117,13 @@ impl Clump {
 }
 
 impl SceneDraft {
+    /// Radius of the largest sphere about a mass centre that holds a clump, or one that comes; 0 where there is none \[m\].
+    pub(crate) fn widest_clump(&self) -> f64 {
+        let there = |clump: &Clump| clump.scale * self.clump_shapes[clump.shape as usize].bounding_radius();
+        let coming = self.insertions.iter().filter(|it| it.has_clumps()).map(|it| it.radii()[1]);
+        self.clumps.iter().map(there).chain(coming).fold(0.0, f64::max)
+    }
+
     /// Indices of the spheres of a clump among the particles.
     pub fn spheres_of(&self, clump: &Clump) -> std::ops::Range<usize> {
         let first = clump.first as usize;
@@ -131,6 +148,12 @@ pub(in crate::scene) fn faults(scene: &SceneDraft) -> Option<Objection> {
     let wrong = |found: String, expected: &str| {
         Some(("clump".to_owned(), "", Mistake::Unexpected { found, expected: expected.to_owned() }))
     };
+    let came = scene.insertions.iter().flat_map(|insertion| &insertion.kinds).filter_map(|kind| kind.clump.as_ref());
+    for clump in came {
+        if scene.clump_shapes.get(clump.index as usize) != Some(&clump.shape) || clump.shape.spheres.is_empty() {
+            return wrong(format!("shape {} of an insertion", clump.index), "the index of a shape, and that shape");
+        }
+    }
     let mut next = 0;
     for (place, clump) in scene.clumps.iter().enumerate() {
         let Some(shape) = scene.clump_shapes.get(clump.shape as usize) else {
@@ -168,18 +191,16 @@ pub(in crate::scene) fn faults(scene: &SceneDraft) -> Option<Objection> {
 
 /// What clumps do not go together with.
 pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
-    let of = scene.clump_of_particles();
-    if of.is_empty() {
+    if !scene.has_clumps() {
         return Vec::new();
     }
+    let mut of = scene.clump_of_particles();
+    of.resize(scene.particles.len(), None);
     let mut found = Vec::new();
     let mut refuse = |table: String, key, what: &str| {
         let message = format!("expected none beside [clump], found one: {what}");
         found.push((table, key, Mistake::Refused { message }));
     };
-    if scene.cell.is_some() {
-        refuse("cell".to_owned(), "", "spheres of clumps have no images yet");
-    }
     if scene.run.plane.is_some() {
         refuse("run".to_owned(), "plane", "clumps move in space");
     }
@@ -187,21 +208,6 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
         if boundary.shape.members().iter().any(|&member| of[member as usize].is_some()) {
             refuse(format!("boundary.{}", boundary.name), "particles", "spheres of a clump cannot move as a group");
         }
-        if boundary.outside == super::Outside::Remove {
-            refuse(format!("boundary.{}", boundary.name), "outside", "clumps cannot be removed yet");
-        }
-    }
-    for insertion in &scene.insertions {
-        refuse(format!("insertion.{}", insertion.name), "", "the number of particles cannot change yet");
-    }
-    for meter in &scene.meters {
-        refuse(format!("flow_meter.{}", meter.name), "", "it does not count clumps yet");
-    }
-    for outlet in &scene.outlets {
-        refuse(format!("outlet.{}", outlet.name), "", "clumps cannot be removed yet");
-    }
-    if scene.domain.is_some() && scene.outside == super::Outside::Remove {
-        refuse("domain".to_owned(), "outside", "clumps cannot be removed yet");
     }
     let rigid = |[a, b]: &[u32; 2]| of[*a as usize].is_some() && of[*a as usize] == of[*b as usize];
     for bond in scene.bonds.iter().filter(|bond| bond.pairs.iter().any(rigid)) {

@@ -1,10 +1,11 @@
 //! `[insertion.<name>]`, `[outlet.<name>]`, `[flow_meter.<name>]` as a scene writes them.
 
+use super::Polygon;
 use super::size_keys::SizesKeys;
-use super::{Polygon, Sizes};
 use crate::base::document::Mistake;
 use crate::base::quantity::{NonNegative, Positive, Triple};
 use crate::laws::surface::direction;
+use crate::scene::clump::OrientationKey;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -13,8 +14,8 @@ use std::fmt;
 /// The key that is wrong, and why.
 type Wrong = (&'static str, Mistake);
 
-/// Sizes, amount, velocity \[m/s\] and scatter \[m/s\] of what comes.
-type Read = (Sizes, Amount, [f64; 3], f64);
+/// Amount, velocity \[m/s\] and scatter \[m/s\] of what comes.
+type Read = (Amount, [f64; 3], f64);
 
 /// What happens to a particle outside the domain, or that came through a boundary.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -42,12 +43,14 @@ pub enum Amount {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InsertionKeys {
-    /// Name of the region in which every new sphere lies whole.
+    /// Name of the region in which all that comes lies whole.
     pub(crate) region: String,
-    /// Name of the material.
-    pub(crate) material: String,
-    /// How radii are distributed.
-    sizes: SizesKeys,
+    /// Name of the material; absent: that which the clumps name.
+    pub(crate) material: Option<String>,
+    /// What comes, and how radii are distributed.
+    pub(crate) sizes: SizesKeys,
+    /// How clumps are turned; absent: at random.
+    pub(crate) orientation: Option<OrientationKey>,
     /// Mass in each second \[kg/s\].
     mass_rate: Option<NonNegative>,
     /// Number in each second \[1/s\].
@@ -61,9 +64,8 @@ pub(crate) struct InsertionKeys {
 }
 
 impl InsertionKeys {
-    /// Sizes, amount, velocity and scatter; otherwise the key that is wrong.
+    /// Amount, velocity and scatter; otherwise the key that is wrong.
     pub(crate) fn read(&self) -> Result<Read, Wrong> {
-        let sizes = self.sizes.sizes()?;
         let amount = match (self.mass_rate, self.count_rate, self.mass) {
             (Some(rate), None, None) => Amount::MassRate(rate.get()),
             (None, Some(rate), None) => Amount::CountRate(rate.get()),
@@ -79,7 +81,7 @@ impl InsertionKeys {
             }
         };
         let velocity = self.velocity.map_or([0.0; 3], |velocity| velocity.0);
-        Ok((sizes, amount, velocity, self.scatter.map_or(0.0, NonNegative::get)))
+        Ok((amount, velocity, self.scatter.map_or(0.0, NonNegative::get)))
     }
 }
 

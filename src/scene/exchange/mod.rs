@@ -3,6 +3,7 @@
 //! Pure functions and keys. Who comes where and when is found in [`crate::engine::flow`].
 
 mod keys;
+mod kinds;
 pub(crate) mod parts;
 mod polygon;
 mod size_keys;
@@ -10,5 +11,7 @@ mod sizes;
 
 pub use keys::{Amount, Outside};
 pub(crate) use keys::{BeyondKeys, InsertionKeys, MeterKeys, OutletKeys};
+pub(crate) use kinds::widest;
+pub use kinds::{InsertedClump, Kind};
 pub use polygon::Polygon;
 pub use sizes::Sizes;

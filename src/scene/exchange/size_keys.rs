@@ -1,6 +1,7 @@
 //! `sizes` of an insertion as a scene writes them.
 
 use super::Sizes;
+use super::kinds::{InsertedClump, Kind};
 use crate::base::document::Mistake;
 use crate::base::quantity::{Numbers, Positive};
 use serde::de::{Error, SeqAccess, Visitor};
@@ -14,6 +15,8 @@ const LEAST_SHARE: f64 = 0.05;
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SizesKeys {
+    /// Name of the clump that comes, or names of classes; absent: spheres.
+    clump: Option<Names>,
     /// Radius, or radii of classes \[m\].
     radius: Option<Radii>,
     /// Shares of the number, class by class.
@@ -36,6 +39,39 @@ struct NormalKeys {
     deviation: Positive,
     /// Least and largest radius \[m\].
     between: Bounds,
+}
+
+/// One name or several.
+#[derive(Clone, Debug)]
+struct Names(Vec<String>);
+
+impl<'de> Deserialize<'de> for Names {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a word or a list.
+        struct OneOrMore;
+        /// What is expected.
+        const EXPECTED: &str = "the name of a clump, or a list of such names";
+        impl<'de> Visitor<'de> for OneOrMore {
+            type Value = Names;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(EXPECTED)
+            }
+            fn visit_str<E: Error>(self, name: &str) -> Result<Names, E> {
+                Ok(Names(vec![name.to_owned()]))
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Names, A::Error> {
+                let mut names = Vec::new();
+                while let Some(name) = list.next_element()? {
+                    names.push(name);
+                }
+                if names.is_empty() {
+                    return Err(A::Error::custom(format!("expected {EXPECTED}, found []")));
+                }
+                Ok(Names(names))
+            }
+        }
+        deserializer.deserialize_any(OneOrMore)
+    }
 }
 
 /// One radius or several \[m\].
@@ -101,9 +137,77 @@ impl<'de> Deserialize<'de> for Bounds {
     }
 }
 
+/// A key that is wrong, and why.
+type Wrong = (&'static str, Mistake);
+
 impl SizesKeys {
+    /// Names of the clumps that come; none where spheres do.
+    pub(crate) fn clumps(&self) -> &[String] {
+        self.clump.as_ref().map_or(&[], |Names(names)| names)
+    }
+
+    /// What comes: spheres of this density \[kg/m³\] or, where clumps are named, these; otherwise the key that is wrong.
+    pub(crate) fn kinds(&self, clumps: Vec<InsertedClump>, density: f64) -> Result<Vec<Kind>, Wrong> {
+        let kind = |clump, sizes| Kind { clump, density, sizes, up_to: 1.0 };
+        let as_written = self.radius.is_none() && self.uniform.is_none() && self.normal.is_none();
+        let own = |clump: &InsertedClump| Sizes::Fixed(clump.shape.bounding_radius());
+        if clumps.len() > 1 {
+            let sizes = match &self.radius {
+                Some(Radii(radii)) if radii.len() > 1 && radii.len() != clumps.len() => {
+                    let found = format!("{} radii and {} clumps", radii.len(), clumps.len());
+                    let expected = "a radius for all, or for each clump".to_owned();
+                    return Err(("sizes", Mistake::Unexpected { found, expected }));
+                }
+                Some(Radii(radii)) => radii.iter().cycle().take(clumps.len()).map(|it| Sizes::Fixed(*it)).collect(),
+                None if as_written => clumps.iter().map(own).collect(),
+                None => vec![self.sizes()?; clumps.len()],
+            };
+            let kinds = clumps.into_iter().zip(sizes).map(|(clump, sizes)| kind(Some(clump), sizes));
+            return self.shared(kinds.collect());
+        }
+        let Some(clump) = clumps.into_iter().next() else { return Ok(vec![kind(None, self.sizes()?)]) };
+        let shared = self.by_number.is_some() || self.by_mass.is_some();
+        let sizes = if as_written && !shared { own(&clump) } else { self.sizes()? };
+        Ok(vec![kind(Some(clump), sizes)])
+    }
+
+    /// Kinds with their shares.
+    fn shared(&self, kinds: Vec<Kind>) -> Result<Vec<Kind>, Wrong> {
+        // Sizes that all have say nothing of the shares: any radius does.
+        let mass = |kind: &Kind| kind.mass(kind.sizes.bounds()[0]);
+        let masses: Vec<f64> = kinds.iter().map(mass).collect();
+        let shares = self.shares(&masses, ["clump", "clumps"])?;
+        let with_share = kinds.into_iter().zip(shares).filter_map(|(kind, up_to)| Some(Kind { up_to: up_to?, ..kind }));
+        Ok(with_share.collect())
+    }
+
+    /// Share of the number up to each class, of one with this mass in any unit; none for those without a share.
+    fn shares(&self, masses: &[f64], [one, all]: [&str; 2]) -> Result<Vec<Option<f64>>, Wrong> {
+        let (shares, by_mass) = match (&self.by_number, &self.by_mass) {
+            (Some(Shares(shares)), None) => (shares, false),
+            (None, Some(Shares(shares))) => (shares, true),
+            _ => {
+                let expected = format!("by_number or by_mass = [..] gives the shares of the {all}");
+                return Err(("sizes", Mistake::Missing { expected }));
+            }
+        };
+        if shares.len() != masses.len() {
+            let found = format!("{} {all} and {} shares", masses.len(), shares.len());
+            return Err(("sizes", Mistake::Unexpected { found, expected: format!("a share for each {one}") }));
+        }
+        let number = |(mass, share): (&f64, &f64)| if by_mass { share / mass } else { *share };
+        let numbers: Vec<f64> = masses.iter().zip(shares).map(number).collect();
+        let sum: f64 = numbers.iter().sum();
+        let mut so_far = 0.0;
+        let up_to = |number: f64| {
+            so_far += number / sum;
+            (number > 0.0).then_some(so_far)
+        };
+        Ok(numbers.into_iter().map(up_to).collect())
+    }
+
     /// The sizes; otherwise the key that is wrong, below `sizes`.
-    pub(super) fn sizes(&self) -> Result<Sizes, (&'static str, Mistake)> {
+    pub(super) fn sizes(&self) -> Result<Sizes, Wrong> {
         let one = "radius, uniform or normal";
         let chosen = [self.radius.is_some(), self.uniform.is_some(), self.normal.is_some()];
         match chosen.iter().filter(|chosen| **chosen).count() {
@@ -114,7 +218,9 @@ impl SizesKeys {
                 return Err(("sizes", Mistake::Unexpected { found, expected: format!("one of {one}") }));
             }
         }
-        if self.radius.is_none() && (self.by_number.is_some() || self.by_mass.is_some()) {
+        // Shares of several clumps are theirs.
+        let shared = self.by_number.is_some() || self.by_mass.is_some();
+        if self.radius.is_none() && shared && self.clumps().len() < 2 {
             let found = "shares without classes".to_owned();
             let expected = "radius = [..] beside by_number or by_mass".to_owned();
             return Err(("sizes", Mistake::Unexpected { found, expected }));
@@ -128,30 +234,13 @@ impl SizesKeys {
     }
 
     /// One radius, or classes with their shares.
-    fn classes(&self, radii: &[f64]) -> Result<Sizes, (&'static str, Mistake)> {
-        let (shares, by_mass) = match (&self.by_number, &self.by_mass) {
-            (Some(Shares(shares)), None) => (shares, false),
-            (None, Some(Shares(shares))) => (shares, true),
-            (None, None) if radii.len() == 1 => return Ok(Sizes::Fixed(radii[0])),
-            _ => {
-                let expected = "by_number or by_mass = [..] gives the shares of the radii".to_owned();
-                return Err(("sizes", Mistake::Missing { expected }));
-            }
-        };
-        if shares.len() != radii.len() {
-            let found = format!("{} radii and {} shares", radii.len(), shares.len());
-            return Err(("sizes", Mistake::Unexpected { found, expected: "a share for each radius".to_owned() }));
+    fn classes(&self, radii: &[f64]) -> Result<Sizes, Wrong> {
+        if let (None, None, [radius]) = (&self.by_number, &self.by_mass, radii) {
+            return Ok(Sizes::Fixed(*radius));
         }
-        let number = |(radius, share): (&f64, &f64)| if by_mass { share / radius.powi(3) } else { *share };
-        let numbers: Vec<f64> = radii.iter().zip(shares).map(number).collect();
-        let sum: f64 = numbers.iter().sum();
-        let mut so_far = 0.0;
-        let mut classes = Vec::new();
-        for (radius, number) in radii.iter().zip(numbers).filter(|(_, number)| *number > 0.0) {
-            so_far += number / sum;
-            classes.push([*radius, so_far]);
-        }
-        Ok(Sizes::Classes(classes))
+        let masses: Vec<f64> = radii.iter().map(|radius| radius.powi(3)).collect();
+        let shares = self.shares(&masses, ["radius", "radii"])?;
+        Ok(Sizes::Classes(radii.iter().zip(shares).filter_map(|(radius, up_to)| Some([*radius, up_to?])).collect()))
     }
 }
 

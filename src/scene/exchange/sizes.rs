@@ -37,12 +37,12 @@ impl Sizes {
         }
     }
 
-    /// Whether a radius \[m\] is one of these.
-    pub fn hold(&self, radius: f64) -> bool {
-        let [least, most] = self.bounds();
+    /// Whether a radius over `length` \[m\] is this number.
+    pub fn hold(&self, over: f64, length: f64) -> bool {
+        let [least, most] = self.bounds().map(|radius| radius / length);
         match self {
-            Self::Classes(classes) => classes.iter().any(|[known, _]| *known == radius),
-            _ => (least..=most).contains(&radius),
+            Self::Classes(classes) => classes.iter().any(|[known, _]| *known / length == over),
+            _ => (least..=most).contains(&over),
         }
     }
 

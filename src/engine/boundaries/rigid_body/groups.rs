@@ -8,12 +8,12 @@ use crate::scene::{Boundary, Scene};
 
 /// Where one of the scene's particles, which stands there \[m\], has come to without being brought back into a periodic cell.
 pub(crate) fn came_to(cell: Option<&CellState>, member: u32, place: Vector) -> Vector {
-    cell.map_or(place, |cell| place + cell.brought_back(member).into())
+    cell.map_or(place, |cell| place + cell.displacement(member).into())
 }
 
 /// Where it stands if it has come there \[m\].
 fn in_cell(cell: Option<&CellState>, member: u32, place: Vector) -> Vector {
-    cell.map_or(place, |cell| place - cell.brought_back(member).into())
+    cell.map_or(place, |cell| place - cell.displacement(member).into())
 }
 
 /// Puts the particles of groups where their boundary stands, with the motion that it has.

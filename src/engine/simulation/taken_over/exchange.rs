@@ -1,6 +1,7 @@
 //! Particles that came or went in the other scene.
 
 use super::{Description, Numbers};
+use crate::engine::clumps;
 use crate::engine::flow;
 use crate::engine::state::exchange::InsertionProgress;
 use crate::engine::state::{InsertedParticle, State};
@@ -16,9 +17,10 @@ pub(super) fn put_newcomers(
 ) -> Option<String> {
     let other = &reached.particles;
     let (last, own) = (scene.particles.last().map_or(0, |last| last.id.0), numbers.here.len());
-    let mut behind = 0;
+    let mut here = vec![None; other.slot.len() - own];
     for there in own as u32..other.slot.len() as u32 {
-        let newcomer = other.slot_of(there).and_then(|slot| {
+        let loose = other.slot_of(there).filter(|&slot| reached.clump(slot).is_none());
+        let newcomer = loose.and_then(|slot| {
             let (position, velocity) = (other.position[slot], other.velocity[slot]);
             let material = from.material_here(scene, other.material[slot])?;
             let number = other.number_of_inserted(there)?;
@@ -32,18 +34,23 @@ pub(super) fn put_newcomers(
                 number,
             })
         });
-        numbers.here.push(newcomer.as_ref().map(|newcomer| {
-            // No particle has an orientation yet.
-            state.particles.add(newcomer, false);
-            state.particles.slot.len() as u32 - 1
-        }));
-        behind += usize::from(newcomer.is_none() && other.slot_of(there).is_some());
+        // No particle has an orientation yet.
+        here[there as usize - own] = newcomer.map(|newcomer| state.add_particle(&newcomer, 0, false));
     }
+    put_clumps(scene, state, reached, (from, own, &mut here));
+    let there = |place: usize| other.slot_of((own + place) as u32).is_some();
+    let behind = (0..here.len()).filter(|&place| here[place].is_none() && there(place)).count();
+    numbers.here.extend(here);
     if let (Some(here), Some(there)) = (&mut state.exchange, &reached.exchange) {
         here.next = here.next.max(there.next);
+        here.next_clump = here.next_clump.max(there.next_clump);
         for (feed, insertion) in here.feeds.iter_mut().zip(&scene.insertions) {
             if let Some(known) = from.insertion(insertion).and_then(|place| there.feeds.get(place)) {
                 *feed = InsertionProgress { rate: feed.rate, rate_of_rate: 0.0, present: 0.0, ..*known };
+                // What has been drawn but is not let come here is drawn anew.
+                if (feed.kind as usize) >= insertion.kinds.len() {
+                    (feed.kind, feed.radius) = (0, 0.0);
+                }
             }
         }
     }
@@ -53,6 +60,40 @@ pub(super) fn put_newcomers(
             from.scene
         )
     })
+}
+
+/// Adds the clumps that came in the other scene, whose own particles are so many, and that an insertion of this one could let come. Notes
+/// the indices of their spheres.
+fn put_clumps(
+    scene: &Scene,
+    state: &mut State,
+    reached: &State,
+    (from, own, here): (&Description, usize, &mut [Option<u32>]),
+) {
+    let (clumps, other) = (&reached.clumps, &reached.particles);
+    for (clump, &number) in clumps.number.iter().enumerate() {
+        let there = clumps.spheres_of(clump);
+        let came = there.iter().all(|&sphere| sphere as usize >= own);
+        let fits = came && number as usize >= scene.clumps.len() && state.exchange.is_some();
+        if !fits || !clumps::is_made(scene, reached, clump, |material| from.material_here(scene, material)) {
+            continue;
+        }
+        let sphere = |&there: &u32| {
+            let slot = other.slot_of(there)?;
+            Some(InsertedParticle {
+                position: other.position[slot],
+                velocity: other.velocity[slot],
+                inertia: other.angular_velocity[slot][3],
+                material: from.material_here(scene, other.material[slot])?,
+                number: other.number_of_inserted(there)?,
+            })
+        };
+        let Some(spheres) = there.iter().map(sphere).collect::<Option<Vec<_>>>() else { continue };
+        state.add_clump(&clumps.rows(clump), number, &spheres, false);
+        for (&there, &index) in there.iter().zip(state.clumps.spheres_of(state.clumps.len() - 1)) {
+            here[there as usize - own] = Some(index);
+        }
+    }
 }
 
 /// Takes away the scene's own particles that went in the other scene. Where the number of particles stays, they begin again.

@@ -10,10 +10,9 @@ mod history;
 
 pub use description::Description;
 
-use super::{RunError, Simulation, assemble};
+use super::{RunError, Simulation, assemble, number};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
-use crate::base::threads::Context;
 use crate::engine::boundaries::{nodes, placing, rigid_body};
 use crate::engine::cell::images;
 use crate::engine::clumps;
@@ -70,7 +69,7 @@ impl Simulation {
         state.clock.steps = reached.clock.steps;
         state.clock.rebuilds = reached.clock.rebuilds;
         put_particles(&mut state, reached, &numbers);
-        put_clumps(&scene, &mut state, reached, &numbers);
+        put_clumps(&mut state, reached, &numbers);
         put_boundaries(&scene, &mut state, reached, from);
         let rows = images::take_over(&mut state, reached, |there| numbers.at(there));
         begin_inputs(&scene, &mut state);
@@ -78,11 +77,10 @@ impl Simulation {
         let mut simulation = Self::with(scene, state);
         simulation.give_orientations();
         let there: Vec<_> = simulation.state.particles.position.clone();
-        let standing = Context { step: 0.0, width: simulation.width, threads: None };
         let Self { scene, bodies, clumps, state, .. } = &mut simulation;
         rigid_body::place_groups(scene, bodies, state);
         if let Some(clumps) = clumps {
-            clumps.place(state, &standing);
+            clumps.place(state);
         }
         check_groups(scene, state, &there)?;
         exchange::take_gone(state, reached, &numbers);
@@ -126,15 +124,14 @@ fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
 }
 
 /// Lets clumps stand and move as those to which their spheres belonged.
-fn put_clumps(scene: &Scene, state: &mut State, reached: &State, numbers: &Numbers) {
-    let mut there = vec![None; scene.particles.len()];
+fn put_clumps(state: &mut State, reached: &State, numbers: &Numbers) {
+    let mut there = vec![None; state.particles.slot.len()];
     for (index, here) in numbers.here.iter().enumerate() {
-        // What came by an insertion stands behind the scene's own.
-        let Some(place) = here.and_then(|here| there.get_mut(here as usize)) else { continue };
-        *place = reached.particles.slot_of(index as u32).and_then(|slot| reached.clump(slot));
+        let Some(here) = here else { continue };
+        there[*here as usize] = reached.particles.slot_of(index as u32).and_then(|slot| reached.clump(slot));
     }
-    for (index, clump) in scene.clumps.iter().enumerate() {
-        let Some(from) = there[clump.first as usize] else { continue };
+    for index in 0..state.clumps.len() {
+        let Some(from) = there[state.clumps.spheres_of(index)[0] as usize] else { continue };
         let (own, other) = (&mut state.clumps, &reached.clumps);
         for (own, other) in [
             (&mut own.position, &other.position),
@@ -204,11 +201,11 @@ fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), 
             }
         }
     }
-    for index in scene.clumps.iter().flat_map(|clump| scene.spheres_of(clump)) {
-        let (now, then) = (state.particles.position[index], there[index]);
+    for &index in &state.clumps.spheres {
+        let (now, then) = (state.particles.position[index as usize], there[index as usize]);
         let way = (Vector::from(now) - Vector::from(then)).length();
         if way.is_nan() || way > IN_PLACE * now[3] {
-            return Err(RunError::ClumpElsewhere { id: scene.particles[index].id.0, way });
+            return Err(RunError::ClumpElsewhere { id: number(scene, &state.particles, index), way });
         }
     }
     Ok(())

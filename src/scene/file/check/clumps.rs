@@ -4,17 +4,14 @@ use super::named_tables::Named;
 use super::place::Place;
 use super::set_reader::{ReadSet, SetReader, Unnumbered};
 use crate::base::document::{Faults, Mistake};
-use crate::base::geometry::Quaternion;
-use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Positive};
 use crate::scene::clump::{ClumpKeys, OrientationKey, spheres, unit};
 use crate::scene::file::tables::{ListEntry, ParticlesTable};
+use crate::scene::import::{self, Request};
 use crate::scene::packing::generator::{generator, uniform};
 use crate::scene::packing::{self, PackingProgress};
 use crate::scene::{Clump, ClumpShape, Particle, Source};
-use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
 /// Columns of a file that say how a clump is turned.
 const TURN: [&str; 4] = ["qw", "qx", "qy", "qz"];
@@ -80,11 +77,7 @@ impl SetReader<'_> {
                 Size::Scale(scale) => scale,
                 Size::Bounding(radius) => radius / shape.bounding_radius(),
             };
-            let turn = match orientation {
-                OrientationKey::Turned(row) => Quaternion::from_row(row),
-                OrientationKey::PrincipalAxes => Quaternion::from_row(shape.axes).conjugate(),
-                OrientationKey::Random => any_turn(&mut random),
-            };
+            let turn = orientation.turn(shape, &mut || uniform(&mut random));
             let density = density.or(keys.density.map(Positive::get)).unwrap_or(like.density);
             let motion = [like.velocity, like.angular_velocity];
             let clump = Clump::of((shape, index as u32), (scale, density), (like.position, turn), motion);
@@ -269,20 +262,38 @@ impl SetReader<'_> {
     }
 }
 
-/// A turn of which all are alike likely (Shoemake 1992).
-fn any_turn(random: &mut ChaCha8Rng) -> Quaternion {
-    let [share, one, other] = [0; 3].map(|_| uniform(random));
-    let (near, far) = ((1.0 - share).sqrt(), share.sqrt());
-    let vector = Vector::new(near * libm::sin(TAU * one), near * libm::cos(TAU * one), far * libm::sin(TAU * other));
-    Quaternion { scalar: far * libm::cos(TAU * other), vector }.normalised()
-}
-
 /// Reads the shapes of clumps.
-pub(super) fn shapes(written: &Named<ClumpKeys>, faults: &mut Faults) -> Vec<ClumpShape> {
+pub(super) fn shapes(written: &Named<ClumpKeys>, source: &Source, faults: &mut Faults) -> Vec<ClumpShape> {
     let mut shapes = Vec::new();
     for (name, keys) in written {
         let table = format!("clump.{name}");
-        shapes.extend(keys.shape(name, &mut |key, mistake| faults.add(&table, key, mistake)));
+        let before = faults.count();
+        let filed = keys.file.as_ref().and_then(|file| filed_spheres(file, &table, source, faults));
+        if faults.count() == before {
+            shapes.extend(keys.shape(name, filed, &mut |key, mistake| faults.add(&table, key, mistake)));
+        }
     }
     shapes
+}
+
+/// The spheres that a file of a clump's table has: centres and radii \[m\].
+fn filed_spheres(file: &str, table: &str, source: &Source, faults: &mut Faults) -> Option<Vec<([f64; 3], f64)>> {
+    let request = Request { file, extra: &[], format: None, units: None, timestep: None };
+    let read = import::read(source.files.get(file)?, &request);
+    let rows = read.map_err(|list| {
+        list.into_iter().for_each(|fault| faults.in_file(file, fault.line, table, &fault.column, fault.mistake));
+    });
+    let rows = rows.ok()?;
+    if let Some(column) = rows.columns.keys().find(|name| name.starts_with(['d', 'v', 'w'])) {
+        let (found, expected) = (format!("a column {column}"), "x, y, z, radius: a clump moves as a whole".to_owned());
+        faults.in_file(file, Some(1), table, column, Mistake::Unexpected { found, expected });
+        return None;
+    }
+    let [x, y, z, radius] = ["x", "y", "z", "radius"].map(|name| &rows.columns[name]);
+    if let Some(row) = radius.iter().position(|radius| *radius <= 0.0) {
+        let (found, expected) = (format!("{:?}", radius[row]), "a number above 0".to_owned());
+        faults.in_file(file, rows.line(row), table, "radius", Mistake::Unexpected { found, expected });
+        return None;
+    }
+    Some((0..rows.count).map(|row| ([x[row], y[row], z[row]], radius[row])).collect())
 }

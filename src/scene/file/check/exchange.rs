@@ -4,9 +4,9 @@ use super::finding::Finding;
 use super::raw_tables::RawTables;
 use crate::base::document::{Faults, Mistake};
 use crate::laws::contact::Material;
-use crate::scene::exchange::Amount;
+use crate::scene::exchange::{Amount, widest};
 use crate::scene::packing::generator::{generator_after, uniform};
-use crate::scene::{Boundary, FlowMeter, Insertion, Known, Outlet, Outside, Region, SceneDraft};
+use crate::scene::{Boundary, ClumpShape, FlowMeter, Insertion, Kind, Known, Outlet, Outside, Region, SceneDraft};
 
 /// What a scene has of particles that come and go.
 pub(super) struct Parts {
@@ -22,13 +22,14 @@ pub(super) struct Parts {
 pub(super) fn parts(
     written: &RawTables,
     (regions, boundaries): (&[Region], &[Boundary]),
-    materials: &[Material],
+    (materials, shapes): (&[Material], &[ClumpShape]),
     faults: &mut Faults,
 ) -> Parts {
     names(written, faults);
     let regions = regions.iter().map(|region| region.name.as_str()).collect();
     let materials = materials.iter().map(|material| (material.name.as_str(), material.density)).collect();
-    let known = Known { regions, boundaries, materials };
+    let clumps = shapes.iter().zip(written.clumps.iter().map(|(_, keys)| keys)).collect();
+    let known = Known { regions, boundaries, materials, clumps };
     let (mut insertions, mut outlets, mut meters) = (Vec::new(), Vec::new(), Vec::new());
     for (name, keys) in &written.insertions {
         let table = format!("insertion.{name}");
@@ -72,27 +73,33 @@ pub(super) fn objections(scene: &SceneDraft) -> Vec<Finding> {
 /// What speaks against an insertion.
 fn of_insertion(scene: &SceneDraft, insertion: &Insertion) -> Vec<Finding> {
     let (mut findings, table) = (Vec::new(), format!("insertion.{}", insertion.name));
-    let ([least, most], region) = (insertion.sizes.bounds(), &scene.regions[insertion.region]);
+    let region = &scene.regions[insertion.region];
+    let [_, most] = widest(insertion.kinds.iter().map(|kind| kind.sizes.bounds()));
     let mut random = generator_after(scene.run.seed, &table, 0);
     if region.shape.place(most, &mut || uniform(&mut random)).is_none() {
-        let found = format!("[region.{}], which is too narrow for a sphere of radius {most:?} m", region.name);
+        let what = if insertion.has_clumps() { "a clump within a sphere" } else { "a sphere" };
+        let found = format!("[region.{}], which is too narrow for {what} of radius {most:?} m", region.name);
         let expected = "a region that holds the largest sphere whole".to_owned();
         findings.push(Finding::at(table.clone(), "region", Mistake::Unexpected { found, expected }));
     }
-    let holds = |radius: f64| {
-        let mass = insertion.mass(radius);
-        mass.is_normal() && (0.4 * mass * radius * radius).is_normal()
+    let holds = |kind: &Kind| {
+        let of = |[radius, mass]: [f64; 2]| mass.is_normal() && (0.4 * mass * radius * radius).is_normal();
+        let largest = kind.sizes.bounds().map(|radius| [radius, kind.mass(radius)]);
+        largest.into_iter().chain([kind.lightest()]).all(of)
+            && kind.extremes().iter().all(|clump| clump.moments.iter().all(|moment| moment.is_normal()))
     };
-    if !holds(least) || !holds(most) {
+    if !insertion.kinds.iter().all(holds) {
+        let [least, most] = insertion.radii();
         let found = format!("spheres of radius {least:?} to {most:?} m");
         let expected = "radii whose mass and moment of inertia 64 bits hold".to_owned();
         findings.push(Finding::at(table.clone(), "sizes", Mistake::Unexpected { found, expected }));
     }
     if let Amount::Mass(mass) = insertion.amount
-        && mass < insertion.mass(least)
+        && mass < insertion.masses()[0]
     {
-        let found = format!("{mass:?} kg, less than the smallest sphere has");
-        let expected = format!("{:?} kg or more", insertion.mass(least));
+        let what = if insertion.has_clumps() { "clump" } else { "sphere" };
+        let found = format!("{mass:?} kg, less than the smallest {what} has");
+        let expected = format!("{:?} kg or more", insertion.masses()[0]);
         findings.push(Finding::at(table.clone(), "mass", Mistake::Unexpected { found, expected }));
     }
     if scene.outside == Outside::Stop

@@ -58,7 +58,7 @@ pub(super) fn scene(
     let forces = damping::forces(&written, &born, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
-        exchange::parts(&written, (&regions, &boundaries), &materials, &mut faults);
+        exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
     let (probes, derived) = looks(&written, &born.sets, &mut faults);
     let mut draft = SceneDraft {
         about: written.about,

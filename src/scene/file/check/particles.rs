@@ -54,7 +54,7 @@ pub(super) fn particles(
     let shape = written.run.plane_particles.unwrap_or_default();
     let mut born = ReadParticles::default();
     let before = faults.count();
-    born.shapes = super::clumps::shapes(&written.clumps, faults);
+    born.shapes = super::clumps::shapes(&written.clumps, source, faults);
     if faults.count() > before {
         return born;
     }

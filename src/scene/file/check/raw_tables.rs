@@ -90,7 +90,8 @@ pub(in crate::scene::file) type FileName = (String, String, String);
 
 /// The files that a scene names.
 pub(in crate::scene::file) fn files(document: &Document, models: &Models) -> Vec<FileName> {
-    let mut keys = vec![("particles", "file".to_owned()), ("bond", "create.file".to_owned())];
+    let mut keys = vec![("particles", "file".to_owned()), ("clump", "file".to_owned())];
+    keys.push(("bond", "create.file".to_owned()));
     let shapes = models.shapes.iter().map(|row| ("boundary", *row));
     for (kind, row) in shapes.chain([("region", ShapeRow::of::<mesh::Keys>())]) {
         keys.extend(row.files.iter().map(|key| (kind, format!("{}.{key}", row.key))));

@@ -347,10 +347,14 @@ fn bonds(draft: &SceneDraft, at: &mut Table) {
 fn comes(insertion: &Insertion, draft: &SceneDraft, at: &mut Table) {
     at.points("region", insertion.region, draft.regions.len());
     at.points("material", insertion.material.index(), draft.materials.len());
-    at.positive("density", insertion.density);
-    let [least, most] = insertion.sizes.bounds();
-    at.positive("sizes", least);
-    at.positive("sizes", most);
+    at.positive("kinds", insertion.kinds.len() as f64);
+    for kind in &insertion.kinds {
+        let [least, most] = kind.sizes.bounds();
+        let clump = kind.clump.as_ref().map_or(kind.density, |clump| clump.density);
+        for (key, number) in [("density", kind.density), ("density", clump), ("sizes", least), ("sizes", most)] {
+            at.positive(key, number);
+        }
+    }
     at.not_negative("rate", insertion.rate().unwrap_or(0.0));
     at.finite("velocity", &insertion.velocity);
     at.not_negative("scatter", insertion.scatter);
