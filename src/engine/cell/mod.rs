@@ -13,6 +13,7 @@
 
 mod deformation;
 pub(crate) mod images;
+pub(crate) mod near;
 mod servo;
 mod stress;
 

@@ -14,12 +14,11 @@ use crate::scene::{Bond, Boundary, Cell, Particle, Run, SceneDraft, Step};
 pub(super) fn bonds(
     written: &RawTables,
     source: &Source,
-    born: &ReadParticles,
+    (born, cell): (&ReadParticles, Option<&Cell>),
     boundaries: &[Boundary],
     run: &Run,
     faults: &mut Faults,
 ) -> Vec<Bond> {
-    let cell = written.cell.as_ref().and_then(|keys| keys.cell(&mut |_, _| {}));
     let mut bonds = Vec::new();
     for (name, keys) in &written.bonds {
         let table = format!("bond.{name}");
@@ -33,7 +32,7 @@ pub(super) fn bonds(
         contradictions(keys, run, &table, faults);
         if let (Some((between, plane)), Some(pairs)) = (between, pairs) {
             let bond = Bond { name: name.clone(), keys: keys.clone(), between, plane, pairs };
-            outside_sets(&bond, &table, (&born.particles, cell.as_ref()), faults);
+            outside_sets(&bond, &table, (&born.particles, cell), faults);
             bonds.push(bond);
         }
     }

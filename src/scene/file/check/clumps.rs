@@ -92,9 +92,9 @@ impl SetReader<'_> {
         let by_sphere = |column: Vec<f64>| rows.iter().map(|&row| column[row]).collect();
         let columns = columns.into_iter().map(|(name, column)| (name, by_sphere(column))).collect();
         let place = match place {
-            Place::File(file, lines) => {
+            Place::File(file, lines, around) => {
                 let lines = if lines.is_empty() { lines } else { rows.iter().map(|&row| lines[row]).collect() };
-                Place::File(file, lines)
+                Place::File(file, lines, around)
             }
             other => other,
         };
@@ -120,7 +120,7 @@ impl SetReader<'_> {
         }
         let bounding = match (lattice, packing) {
             (Some(lattice), _) => packing::lattice(lattice),
-            (_, Some(packing)) => packing::packing(packing, self.seed, &self.table, tell),
+            (_, Some(packing)) => packing::packing(packing, self.cell, (self.seed, &self.table), tell),
             (None, None) => Ok(Vec::new()),
         };
         let bounding = bounding.map_err(|(key, mistake)| faults.add(&self.table, key, mistake)).ok()?;
@@ -268,7 +268,7 @@ impl SetReader<'_> {
             placed.push(one);
         }
         let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
-        Some((placed, Place::File(file.to_owned(), rows.lines), columns))
+        Some((placed, Place::File(file.to_owned(), rows.lines, rows.around), columns))
     }
 }
 

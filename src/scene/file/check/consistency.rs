@@ -193,13 +193,14 @@ fn outside(scene: &SceneDraft, findings: &mut Vec<Finding>) {
 fn surfaces(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     let permitted = scene.run.max_overlap;
     let fixed_groups = fixed_groups(scene);
+    let in_cell = |place: [f64; 3]| scene.cell.map_or(place, |cell| cell.lattice.brought_back(place));
     for boundary in &scene.boundaries {
         let Some(material) = boundary.shape.material() else { continue };
         let fixed = is_fixed(boundary);
         let name = &boundary.name;
         let (mut behind, mut deep) = ((0.0, 0, 0), (0.0, 0, 0));
         for (index, particle) in scene.particles.iter().enumerate() {
-            let Some(distance) = boundary.shape.distance(particle.position.into()) else { continue };
+            let Some(distance) = boundary.shape.distance(in_cell(particle.position).into()) else { continue };
             let overlap = 1.0 - distance / particle.radius;
             if distance < 0.0 {
                 note(&mut behind, -distance, particle.id.0);

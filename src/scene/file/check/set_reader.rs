@@ -5,6 +5,7 @@ use super::named_tables::Named;
 use super::place::Place;
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
+use crate::base::geometry::Lattice;
 use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
 use crate::laws::contact::Material;
 use crate::scene::Source;
@@ -35,6 +36,8 @@ pub(super) struct SetReader<'a> {
     pub(super) written: &'a ParticlesTable,
     /// All materials.
     pub(super) materials: &'a [Material],
+    /// The cell that repeats, if there is a sound one.
+    pub(super) cell: Option<Lattice>,
     /// The scene's seed.
     pub(super) seed: u64,
     /// What all particles are.
@@ -73,7 +76,7 @@ impl SetReader<'_> {
         }
         let spheres = match (lattice, packing) {
             (Some(lattice), _) => packing::lattice(lattice),
-            (_, Some(packing)) => packing::packing(packing, self.seed, &self.table, tell),
+            (_, Some(packing)) => packing::packing(packing, self.cell, (self.seed, &self.table), tell),
             (None, None) => Ok(Vec::new()),
         };
         match spheres {
@@ -258,7 +261,7 @@ impl SetReader<'_> {
             newborn.push(Unnumbered { id: number.map(|number| number as u32), is_of_clump: false, particle });
         }
         let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
-        (newborn, Vec::new(), Place::File(file.to_owned(), rows.lines), columns)
+        (newborn, Vec::new(), Place::File(file.to_owned(), rows.lines, rows.around), columns)
     }
 
     /// The material of each label of a file; of the set, if the file has none.
