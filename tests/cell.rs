@@ -619,7 +619,7 @@ fn what_a_cell_does_not_go_with_is_refused() {
         ),
         ("periodic = [\"x\"]\nmotion = { driven = [\"xy\"] }", "", "xy, where the cell does not repeat"),
         ("motion = { driven = [\"xx\"], fixed = [\"xx\"] }", "", "xx twice"),
-        ("motion = { shear = \"zz\" }", "", "expected xy, xz or yz"),
+        ("motion = { shear = \"zx\" }", "", "expected \"xy\", \"xz\" or \"yz\", found \"zx\""),
         ("periodic = []", "", "at least one edge"),
         (
             "motion = { driven = [\"xx\"] }",
@@ -631,6 +631,9 @@ fn what_a_cell_does_not_go_with_is_refused() {
         let found = with(more, rest);
         assert!(found.contains(words), "{found}");
     }
+    let close = spheres(&[([0.05, 0.5, 0.5], 0.1, [0.0; 3]), ([0.95, 0.5, 0.5], 0.1, [0.0; 3])]);
+    let through = read(&scene(law, pair, &(close + &cell(cube(1.0), "")))).unwrap_err();
+    assert!(through.contains("between particles 1 and 2 through a face of the cell"), "{through}");
     let narrow = scene(law, pair, &(spheres(&[([0.0; 3], 0.1, [0.0; 3])]) + &cell(cube(0.05), "")));
     assert!(read(&narrow).unwrap_err().contains("at least the largest radius"));
 }

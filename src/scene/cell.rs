@@ -109,6 +109,18 @@ enum Component {
     Yz,
 }
 
+/// A shear without end.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Shear {
+    /// [`Component::Xy`]
+    Xy = 3,
+    /// [`Component::Xz`]
+    Xz,
+    /// [`Component::Yz`]
+    Yz,
+}
+
 /// A servo as the scene writes it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -134,7 +146,7 @@ struct MotionKeys {
     #[serde(default)]
     servo: BTreeMap<Component, ServoKeys>,
     /// A shear without end.
-    shear: Option<Component>,
+    shear: Option<Shear>,
 }
 
 /// `[cell]`
@@ -170,16 +182,17 @@ impl CellKeys {
             }
         }
         let MotionKeys { fixed, driven, servo, shear } = &self.motion;
-        let named = (fixed.iter().map(|component| (*component, CellMotion::Fixed)))
-            .chain(driven.iter().chain(shear).map(|component| (*component, CellMotion::Driven)))
+        let shear = shear.map(|shear| shear as usize);
+        let named = (fixed.iter().map(|component| (*component as usize, CellMotion::Fixed)))
+            .chain(driven.iter().map(|component| *component as usize).chain(shear).map(|it| (it, CellMotion::Driven)))
             .chain(servo.iter().map(|(component, keys)| {
                 let servo = StressServo { stress: keys.stress.get(), max_rate: keys.max_rate.get() };
-                (*component, CellMotion::Servo(servo))
+                (*component as usize, CellMotion::Servo(servo))
             }));
         let mut motion = [None; 6];
         for (component, moves) in named {
-            if motion[component as usize].replace(moves).is_some() {
-                twice("motion", STRAINS[component as usize]);
+            if motion[component].replace(moves).is_some() {
+                twice("motion", STRAINS[component]);
             }
         }
         let lattice = match (&self.edges, box_of_file) {
@@ -202,7 +215,7 @@ impl CellKeys {
         Some(Cell {
             lattice: Lattice { origin, periodic, ..lattice },
             motion: motion.map(Option::unwrap_or_default),
-            shear: shear.map(|component| component as usize),
+            shear,
         })
     }
 }
@@ -279,9 +292,6 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
                 "components of edges that repeat",
             ));
         }
-    }
-    if let Some(component) = cell.shear.filter(|&component| component < 3) {
-        found.push(at_cell("motion.shear", STRAINS[component].to_owned(), "xy, xz or yz"));
     }
     // What is further away than pairs reach has no image; an image of each edge up to there is made.
     let distance = scene.bonds.iter().filter_map(|bond| bond.create_distance()).fold(0.0, f64::max);

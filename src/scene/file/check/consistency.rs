@@ -273,12 +273,13 @@ fn overlaps(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     let originals = with_images(scene, &mut spheres, |radius| radius + largest);
     let permitted = scene.run.max_overlap;
     let bonded = Bonded::of(scene);
-    let mut worst: Option<(f64, u32, u32)> = None;
+    let mut worst: Option<(f64, u32, u32, bool)> = None;
     let mut count = 0;
     for_each_overlap(&spheres, |i, j, overlap| {
         if i.min(j) as usize >= scene.particles.len() {
             return; // two images
         }
+        let across = i.max(j) as usize >= scene.particles.len();
         let (i, j) = (originals[i as usize], originals[j as usize]);
         let (i, j) = (i.min(j) as usize, i.max(j) as usize);
         let (a, b) = (&scene.particles[i], &scene.particles[j]);
@@ -292,19 +293,19 @@ fn overlaps(scene: &SceneDraft, findings: &mut Vec<Finding>) {
         }
         count += 1;
         // Ties go to the lower numbers, whatever the order of the search.
-        let this = (relative, a.id.0, b.id.0);
-        if worst.is_none_or(|(most, a, b)| relative > most || relative == most && (this.1, this.2) < (a, b)) {
+        let this = (relative, a.id.0, b.id.0, across);
+        if worst.is_none_or(|(most, a, b, _)| relative > most || relative == most && (this.1, this.2) < (a, b)) {
             worst = Some(this);
         }
     });
-    if let Some((overlap, a, b)) = worst {
+    if let Some((overlap, a, b, across)) = worst {
         let set = scene
             .particles
             .iter()
             .find(|particle| particle.id.0 == b)
             .and_then(|particle| scene.sets.get(particle.set.index()));
         let table = set.map_or("particles".to_owned(), |set| format!("particles.{set}"));
-        let mistake = Mistake::Overlap { a, b, overlap, permitted, more: count - 1 };
+        let mistake = Mistake::Overlap { a, b, overlap, permitted, across, more: count - 1 };
         findings.push(Finding::at(table, "", mistake));
     }
 }
