@@ -302,6 +302,44 @@ fn what_comes_and_goes_through_the_faces_gives_the_same_bits() {
 }
 
 #[test]
+fn clumps_come_and_go_through_the_faces_as_spheres_do() {
+    let shape = "[clump.pair]\nspheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 0.0, 0.0], radius = 0.002 }]\n";
+    let rest = "count_rate = 20000.0\nvelocity = [2.0, -1.0, 0.5]\nscatter = 0.5\n\
+                [region.hole]\nbox = [[0.1, -0.05, -0.03], [0.12, -0.02, 0.02]]\n[outlet.out]\nregion = \"hole\"\n\
+                [flow_meter.face]\npolygon = [[0.06, -0.1, -0.1], [0.06, 0.1, -0.1], [0.06, 0.1, 0.1], [0.06, -0.1, 0.1]]\n";
+    let run = |threads: usize, width: Width, kept: bool| {
+        let begin = || {
+            let text = filling(rest).replace("[run]\nstep = 1e-5", &format!("[run]\nthreads = {threads}\nstep = 4e-6"));
+            let text = text
+                .replace("sizes = {", "sizes = { clump = \"pair\",")
+                .replace("[region.corner]", &format!("{shape}[region.corner]"));
+            let mut simulation = start(&text);
+            simulation.set_width(width);
+            simulation
+        };
+        let mut simulation = begin();
+        for step in 0..8 {
+            simulation.advance(2e-3).unwrap();
+            if kept && step == 4 {
+                let state = simulation.state().clone();
+                simulation = begin();
+                simulation.restore(&state).unwrap();
+            }
+        }
+        let turnover = simulation.state().ledger.as_ref().unwrap().turnover;
+        assert!(simulation.energy_residual().unwrap().abs() < 1e-12 * turnover);
+        simulation.state().clone()
+    };
+    let first = run(1, Width::widest(), false);
+    let exchange = first.exchange.as_ref().unwrap();
+    assert!(exchange.feeds[0].came.clumps > 20 && exchange.outlets[0].clumps > 5, "{exchange:?}");
+    assert_eq!(first.cell.as_ref().unwrap().edges_away.len(), first.particles.slot.len());
+    for (threads, width, kept) in [(3, Width::widest(), false), (1, Width::Least, false), (2, Width::widest(), true)] {
+        assert!(run(threads, width, kept) == first, "{threads} threads, {width:?}, restored {kept}");
+    }
+}
+
+#[test]
 fn an_outlet_takes_what_has_an_image_in_it() {
     let outlet = "[region.gate]\nbox = [[0.157, -0.02, 0.0], [0.163, 0.05, 0.045]]\n[outlet.out]\nregion = \"gate\"\n";
     // The gate is the face at x = 0.06 two cells away; one flies along it, the other through it.
