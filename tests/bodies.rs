@@ -192,6 +192,50 @@ fn the_stable_step_holds_a_light_body_between_spring_and_sphere() {
 }
 
 #[test]
+fn an_impact_to_come_on_a_light_body_is_as_stiff_as_its_contact() {
+    let hooke = "hooke]\ncharacteristic_velocity = 1.0\n#";
+    for ratio in [10.0, 1.0, 1e-2, 1e-6] {
+        for shape in ["plane", "disc"] {
+            let text = flying("", 1.0, hooke, &plate(shape, ratio));
+            let touching = start(&text.replace("-5.05e-3]", "-4.9999e-3]")).limit().safe;
+            let coming = start(&text).limit().safe;
+            assert!((0.75..=1.06).contains(&(coming / touching)), "{shape}, {ratio}: {coming:e}, then {touching:e} s");
+        }
+    }
+}
+
+#[test]
+fn light_bodies_among_spheres_take_no_energy_from_nothing() {
+    // A sphere strikes a column of discs and spheres. The second disc is thrown to and fro, or pressed from both sides.
+    let disc = |name: &str, height: f64, ratio: f64| {
+        format!(
+            "[boundary.{name}]\nmaterial = \"a\"\ndisc = {{ centre = [0.0, 0.0, {height:?}], normal = [0.0, 0.0, 1.0], radius = 0.02 }}\n\
+             mass = {:?}\nmotion = {{ free = [\"z\"] }}\n",
+            ratio * sphere()
+        )
+    };
+    let bodies = "plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\n".to_owned()
+        + &disc("first", 0.01, 1e-2)
+        + &disc("second", 0.02, 1e-6)
+        + &disc("third", 0.03, 1.0);
+    let sphere_at = |height: f64, speed: f64| {
+        format!("{{ position = [0.0, 0.0, {height:?}], radius = 5e-3, velocity = [0.0, 0.0, {speed:?}] }}")
+    };
+    let list = [sphere_at(5e-3, 0.5), sphere_at(15e-3, 0.0), sphere_at(25e-3, 0.0)].join(", ");
+    let one = "{ position = [0.0, 0.0, -5.05e-3], radius = 5e-3, velocity = [0.0, 0.0, 1.0] }";
+    for restitution in [1.0, 0.95] {
+        let text = flying("", restitution, "hooke]\ncharacteristic_velocity = 1.0\n#", &bodies).replace(one, &list);
+        let mut simulation = start(&text);
+        let energy = 0.5 * sphere() * 0.25;
+        for _ in 0..20 {
+            simulation.advance(5e-4).unwrap_or_else(|error| panic!("e = {restitution}: {error}"));
+            let residual = simulation.physical_residual().expect("a book") / energy;
+            assert!(residual.abs() < 0.05, "e = {restitution}: {residual} of the energy at {:e} s", simulation.time());
+        }
+    }
+}
+
+#[test]
 fn a_dashpot_to_the_ground_takes_energy_whatever_the_step_and_is_of_second_order() {
     let speed = |damping: f64, step: f64| {
         let more = format!("mass = 1e-3\ndamping = {{ z = {damping:?} }}\nmotion = {{ loaded = {{ z = 1.0 }} }}");

@@ -12,6 +12,8 @@ mod bonded_exchange;
 mod bonds;
 mod books;
 mod cell;
+mod cell_boundaries;
+mod cell_exchange;
 mod clump_cell;
 mod clump_exchange;
 mod clumps;

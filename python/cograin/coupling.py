@@ -67,8 +67,8 @@ class StepControl:
             value = getattr(self, name)
             if value is not None and not value > 0.0:
                 raise ValueError(f"{name}: expected a number above 0, found {value}")
-        if self.halvings < 0:
-            raise ValueError(f"halvings: expected at least 0, found {self.halvings}")
+        if not (isinstance(self.halvings, int) and self.halvings >= 0):
+            raise ValueError(f"halvings: expected a whole number from 0 on, found {self.halvings}")
 
     def objection(self, outcome: Outcome, defect: float, bend: float, last: bool) -> str:
         """Why a step is not accepted; empty if it is accepted. ``last``: a shorter one is not to be had or no help."""
@@ -293,13 +293,11 @@ class Coupling:
         """One step; if it is left early, both sides go back to its beginning."""
         own, exchange = dict(vars(self)), self.exchange.memory()
         partner = self.partner.memory() if hasattr(self.partner, "memory") else None
-        begun = len(self.record)
+        begun, began = len(self.record), self.interface.time
         if self._saves:
             self.interface.save()
-        moved = False
         try:
             step, outcome, defect, evaluations, refusals = self._agreed()
-            moved = True
             self._jumped = outcome.jumps
             row = self._commit(step, outcome, evaluations, refusals)
             self._place += 0.5**self._level
@@ -308,9 +306,11 @@ class Coupling:
                 self._level -= 1
             return row
         except BaseException as error:
-            if moved and not self._saves:
+            if not self._saves and self.interface.time != began:
                 said = str(error) or type(error).__name__
-                self._broken = f"t = {step.end:g} s: the units have made the step, the partner has not: {said}"
+                self._broken = (
+                    f"t = {self.interface.time:g} s: the units have made the step, the partner has not: {said}"
+                )
                 raise
             vars(self).update(own)
             del self.record.rows[begun:]

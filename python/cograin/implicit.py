@@ -207,6 +207,8 @@ class Implicit(Exchange):
     repeats = True
 
     def __init__(self, *, tolerance: Tolerance | None = None, force: Force = "mean", limit: int = 30) -> None:
+        if not isinstance(tolerance, Tolerance | None):
+            raise ValueError(f"tolerance: expected Tolerance(displacement=..), or another limit, found {tolerance!r}")
         self.tolerance = tolerance or Tolerance()
         self.force = force
         self.limit = limit

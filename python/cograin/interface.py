@@ -260,6 +260,8 @@ class Interface:
         substeps: int = 1,
     ) -> None:
         inputs = _several(displacements)
+        if not inputs:
+            raise ValueError("interface: expected names of displacements, found none")
         ends = _several(forces) if forces is not None else tuple(_answer(name, 0) for name in inputs)
         if mean_forces is not None:
             means = _several(mean_forces)

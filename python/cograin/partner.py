@@ -132,6 +132,8 @@ class Partners:
     """Several partners: the first has the first directions of the interface, and so on."""
 
     def __init__(self, *partners: Partner) -> None:
+        if not partners:
+            raise ValueError("partners: expected one at least, found none")
         self.partners = partners
         ends = np.cumsum([len(partner.displacement) for partner in partners])
         self._places = [

@@ -13,6 +13,7 @@ Colours are told apart with any colour vision, and in print by their lightness o
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -53,6 +54,12 @@ def _prefixed(values: Any, unit: str) -> tuple[float, str]:
     return 10.0**-exponent, prefix + unit
 
 
+def _shared(table: Table, name: str) -> str:
+    """What shares a panel: columns of one unit, of those without any the components of one quantity."""
+    unit = table.unit_of(name)
+    return unit if unit != "1" else re.sub(r"\.[xyz]{1,2}$", "", name)
+
+
 def _interesting(table: Table) -> dict[str, list[str]]:
     """Columns that change, by their unit, the largest first; columns that are a hundredth of another say little."""
     groups: dict[str, list[tuple[float, str]]] = {}
@@ -64,8 +71,7 @@ def _interesting(table: Table) -> dict[str, list[str]]:
         spread = float(finite.max() - finite.min())
         is_mean = ".mean_" in name and name.replace(".mean_", ".") in table
         if spread > 0.0 and not is_mean and not name.endswith((".residual", ".physical_residual")):
-            key = table.unit_of(name) if table.unit_of(name) != "1" else name
-            groups.setdefault(key, []).append((spread, name))
+            groups.setdefault(_shared(table, name), []).append((spread, name))
     chosen = {}
     for key, columns in groups.items():
         columns.sort(reverse=True)
@@ -75,14 +81,14 @@ def _interesting(table: Table) -> dict[str, list[str]]:
 
 
 def history(table: Table, columns: Sequence[str] | None = None) -> Any:
-    """Columns over time, a panel for each unit; those that change most if none are named."""
+    """Columns over time, a panel for each unit (or quantity without one); those that change most if none are named."""
     if columns is None:
         groups = _interesting(table)
     else:
         groups = {}
         for name in columns:
             table[name]  # refuses an unknown one by name
-            groups.setdefault(table.unit_of(name) if table.unit_of(name) != "1" else name, []).append(name)
+            groups.setdefault(_shared(table, name), []).append(name)
     if not groups:
         raise ResultError("expected a column that changes over time, found none")
     figure, panels = _figure(len(groups), height=2.3)

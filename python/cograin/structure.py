@@ -59,6 +59,13 @@ class Structure:
         self.mass, self.stiffness, self.damping = (
             _matrix(each, size, keep, sparse) for each in (mass, stiffness, damping)
         )
+        for name in ("mass", "stiffness", "damping"):
+            matrix = getattr(self, name)
+            if not np.isfinite(matrix.data if sparse else matrix).all():
+                raise ValueError(f"{name}: expected finite numbers, found others")
+        lightest = self.mass.diagonal().min(initial=0.0)
+        if lightest < 0.0:
+            raise ValueError(f"mass: expected numbers from 0 on, found {lightest:g}")
         self.at = _directions(at, size)[keep]
         self._sparse = sparse
         self._load = load

@@ -23,6 +23,7 @@ from cograin.vector import Matrix, Vector
 _log = logging.getLogger("cograin")
 _WARNING = 1  # status of a call that was done but for something beside it
 _DISCARD = 2  # status of a step that was not made
+_ROUNDING = 1e-3  # of the length of a step, that its end may be off
 
 _PENDING = 5  # status of a step that is still being made
 
@@ -306,6 +307,8 @@ class Unit:
         counts himself. Raises `StepDiscarded` where the unit cannot make the step.
         """
         self._ready()
+        if until is not None and not abs(until - self.time - length) <= _ROUNDING * abs(length):
+            raise ValueError(f"{self.name}: until: expected about {self.time + length:g} s, found {until:g} s")
         # Where a saved state is kept, it may come back to a time before this one.
         final = fmpy.fmi2.fmi2False if self._states else fmpy.fmi2.fmi2True
         with interrupts.held():
@@ -369,6 +372,8 @@ class Unit:
 
     def restore(self, state: State) -> None:
         """Restores a saved state. The unit continues from it bit for bit, and the state can be restored again."""
+        if not isinstance(state, State):
+            raise UnitError(f"{self.name}: expected a saved state, found {state!r}")
         if not state.handle:
             raise UnitError(f"{self.name}: expected a saved state, found one that was freed")
         with interrupts.held():

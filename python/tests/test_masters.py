@@ -21,6 +21,7 @@ from cograin import (
     Jacobi,
     Newton,
     Oscillator,
+    Partners,
     Quadratic,
     QuasiNewton,
     Secant,
@@ -288,12 +289,14 @@ def test_an_error_while_the_partner_makes_its_step_takes_both_sides_back(drop):
     assert len(coupling.run(0.01, progress=False)) == 10
 
 
-def test_an_explicit_run_whose_partner_failed_is_not_continued_silently(drop):
-    class Fails(Oscillator):
-        def advance(self, force, displacement, step):
-            raise RuntimeError("no more")
+@pytest.mark.parametrize("fails", ["advance", "compliance"])
+def test_an_explicit_run_whose_partner_failed_is_not_continued_silently(drop, fails):
+    def fail(*_):
+        raise RuntimeError("no more")
 
-    coupling = Coupling(Interface(drop, FLOOR), Fails(1.0, 1e4), GaussSeidel(), 1e-3)
+    plate = Oscillator(1.0, 1e4)
+    coupling = Coupling(Interface(drop, FLOOR), plate, GaussSeidel(), 1e-3)
+    setattr(plate, fails, fail)
     with pytest.raises(RuntimeError, match="no more"):
         coupling.advance()
     with pytest.raises(CouplingStopped, match="the units have made the step, the partner has not: no more"):
@@ -516,6 +519,22 @@ def test_wrong_arguments_are_answered_in_words(drop, tmp_path):
     drop.free(state)
     with pytest.raises(UnitError, match="expected a saved state, found one that was freed"):
         drop.restore(state)
+    with pytest.raises(UnitError, match="expected a saved state, found None"):
+        drop.restore(None)
+    with pytest.raises(ValueError, match=r"until: expected about 0.001 s, found -5 s"):
+        drop.step(1e-3, until=-5.0)
+    assert drop.time == 0.0
+    for make, words in (
+        (lambda: Oscillator(float("nan"), 1e4), "mass: expected finite numbers"),
+        (lambda: Structure(np.eye(2), [1.0, float("inf")]), "stiffness: expected finite numbers"),
+        (lambda: Oscillator(-1.0, 1e4), "mass: expected numbers from 0 on, found -1"),
+        (lambda: Secant(tolerance=1e-6), r"tolerance: expected Tolerance\(displacement=..\), .*, found 1e-06"),
+        (lambda: StepControl(halvings=1.5), "halvings: expected a whole number from 0 on, found 1.5"),
+        (Partners, "partners: expected one at least"),
+        (lambda: Interface(drop, []), "interface: expected names of displacements, found none"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            make()
     plate = Oscillator(1.0, 1e4)
     for step in (0.0, -1.0, float("nan"), float("inf")):
         with pytest.raises(ValueError, match="step: expected a finite number above 0"):

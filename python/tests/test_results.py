@@ -183,3 +183,14 @@ def test_a_record_of_a_coupled_run_is_drawn(tmp_path):
     rows = "\n".join(f"{t},{np.sin(5 * t)},{1e-3 * np.cos(5 * t)}" for t in time)
     (tmp_path / "coupled.csv").write_text(f"time,table.mean_force.z,table.displacement.z\n{rows}\n")
     assert [path.name for path in draw(tmp_path / "coupled.csv")] == ["history.png"]
+
+
+def test_components_of_a_quantity_without_unit_share_a_panel(tmp_path):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import history
+
+    names = ["cell.strain.xx", "cell.strain.yz", "cell.stress.xx", "cell.stress.yz", "cell.porosity"]
+    (tmp_path / "cell.csv").write_text(f"{','.join(['time', *names])}\n0,0,0,0,0,0.4\n1,-0.1,0.05,-1e4,5e3,0.3\n")
+    panels = history(read_table(tmp_path / "cell.csv")).axes
+    drawn = [{line.get_label() for line in panel.get_lines()} for panel in panels]
+    assert drawn == [set(names[2:4]), set(names[:2]), {names[4]}]

@@ -2,13 +2,17 @@
 
 use crate::base::document::Mistake;
 use crate::base::geometry::Lattice;
-use crate::base::geometry::lattice::{STRAIN_PLACES, STRAINS};
+use crate::base::geometry::lattice::{STRAIN_PLACES, STRAINS, brought_back};
 use crate::base::number::Vector;
 use crate::base::quantity::{Finite, Positive, Triple};
-use crate::laws::bond::creation::Creation;
-use crate::scene::SceneDraft;
+use crate::laws::surface::Copies;
+use crate::scene::import::FileBox;
+use crate::scene::{AxisMotion, Boundary, OutletPlace, SceneDraft};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+
+/// A surface that is so many times as wide as its copy is away meets it.
+const WIDE: f64 = 1.0 + 1e-6;
 
 /// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -16,7 +20,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Sine of an angle below which an edge lies in a plane.
 const ALONG: f64 = 1e-9;
 
-/// So many images of a particle along an edge are made at most.
+/// So many images of a particle along an edge are made at most, and on each side so many copies of a surface.
 const MOST_IMAGES: f64 = 10.0;
 
 /// A periodic cell.
@@ -105,6 +109,18 @@ enum Component {
     Yz,
 }
 
+/// A shear without end.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Shear {
+    /// [`Component::Xy`]
+    Xy = 3,
+    /// [`Component::Xz`]
+    Xz,
+    /// [`Component::Yz`]
+    Yz,
+}
+
 /// A servo as the scene writes it.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -130,18 +146,17 @@ struct MotionKeys {
     #[serde(default)]
     servo: BTreeMap<Component, ServoKeys>,
     /// A shear without end.
-    shear: Option<Component>,
+    shear: Option<Shear>,
 }
 
 /// `[cell]`
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene) struct CellKeys {
-    /// The edges \[m\].
-    edges: Vec<Triple>,
-    /// The corner from which they go out \[m\].
-    #[serde(default)]
-    origin: Triple,
+    /// The edges \[m\]; absent: those of the box that a file of particles says.
+    edges: Option<Vec<Triple>>,
+    /// The corner from which they go out \[m\]; absent: that of the file whose edges they are, or 0.
+    origin: Option<Triple>,
     /// Along which it repeats; absent: all.
     periodic: Option<Vec<Edge>>,
     /// How it is deformed.
@@ -150,8 +165,12 @@ pub(in crate::scene) struct CellKeys {
 }
 
 impl CellKeys {
-    /// The cell; reports what is wrong in the table itself.
-    pub(in crate::scene) fn cell(&self, report: &mut dyn FnMut(&str, Mistake)) -> Option<Cell> {
+    /// The cell, beside files that say this box; reports what is wrong in the table itself.
+    pub(in crate::scene) fn cell(
+        &self,
+        box_of_file: Option<Lattice>,
+        report: &mut dyn FnMut(&str, Mistake),
+    ) -> Option<Cell> {
         let mut twice = |key: &str, name: &str| {
             let (found, expected) = (format!("{name} twice"), "each once".to_owned());
             report(key, Mistake::Unexpected { found, expected });
@@ -163,29 +182,82 @@ impl CellKeys {
             }
         }
         let MotionKeys { fixed, driven, servo, shear } = &self.motion;
-        let named = (fixed.iter().map(|component| (*component, CellMotion::Fixed)))
-            .chain(driven.iter().chain(shear).map(|component| (*component, CellMotion::Driven)))
+        let shear = shear.map(|shear| shear as usize);
+        let named = (fixed.iter().map(|component| (*component as usize, CellMotion::Fixed)))
+            .chain(driven.iter().map(|component| *component as usize).chain(shear).map(|it| (it, CellMotion::Driven)))
             .chain(servo.iter().map(|(component, keys)| {
                 let servo = StressServo { stress: keys.stress.get(), max_rate: keys.max_rate.get() };
-                (*component, CellMotion::Servo(servo))
+                (*component as usize, CellMotion::Servo(servo))
             }));
         let mut motion = [None; 6];
         for (component, moves) in named {
-            if motion[component as usize].replace(moves).is_some() {
-                twice("motion", STRAINS[component as usize]);
+            if motion[component].replace(moves).is_some() {
+                twice("motion", STRAINS[component]);
             }
         }
-        let Ok(edges) = <[Triple; 3]>::try_from(self.edges.clone()) else {
-            let (found, expected) = (format!("{} edges", self.edges.len()), "three edges [x, y, z]".to_owned());
-            report("edges", Mistake::Unexpected { found, expected });
-            return None;
+        let lattice = match (&self.edges, box_of_file) {
+            (Some(edges), _) => match edges[..] {
+                [a, b, c] => Lattice { edges: [a, b, c].map(Triple::get), ..Lattice::default() },
+                _ => {
+                    let (found, expected) = (format!("{} edges", edges.len()), "three edges [x, y, z]".to_owned());
+                    report("edges", Mistake::Unexpected { found, expected });
+                    return None;
+                }
+            },
+            (None, Some(lattice)) => lattice,
+            (None, None) => {
+                let expected = "three edges [x, y, z], or a file of particles that says its box".to_owned();
+                report("edges", Mistake::Missing { expected });
+                return None;
+            }
         };
+        let origin = self.origin.map_or(lattice.origin, Triple::get);
         Some(Cell {
-            lattice: Lattice { origin: self.origin.get(), edges: edges.map(Triple::get), periodic },
+            lattice: Lattice { origin, periodic, ..lattice },
             motion: motion.map(Option::unwrap_or_default),
-            shear: shear.map(|component| component as usize),
+            shear,
         })
     }
+}
+
+/// What was expected of edges instead of these, if anything.
+pub(in crate::scene) fn fault_of(lattice: &Lattice) -> Option<&'static str> {
+    let Lattice { origin, edges: [a, b, c], .. } = *lattice;
+    let numbers = [origin, a, b, c];
+    if !numbers.as_flattened().iter().all(|number| number.is_finite()) || !lattice.volume().is_normal() {
+        return Some("finite numbers and a volume");
+    }
+    let upright = a[1] == 0.0 && a[2] == 0.0 && b[2] == 0.0 && a[0] > 0.0 && b[1] > 0.0 && c[2] > 0.0;
+    (!upright).then_some("[[ax, 0, 0], [bx, by, 0], [cx, cy, cz]] with ax, by, cz above 0")
+}
+
+/// How far the edges of a box in a file may be from those of the cell, over the longest: texts have six digits.
+const DIGITS: f64 = 1e-5;
+
+/// What a cell, or a scene without one, has against the box of a file of particles: found and expected.
+pub(in crate::scene) fn box_objection(cell: Option<&Cell>, around: &FileBox) -> Option<[String; 2]> {
+    let names = |periodic: [bool; 3]| {
+        let names: Vec<&str> = (0..3).filter(|&edge| periodic[edge]).map(|edge| AXES[edge]).collect();
+        names.join(", ")
+    };
+    let Some(cell) = cell else {
+        let expected = "a [cell] in the scene, which takes its edges from this file where it names none".to_owned();
+        return around.is_periodic().then(|| ["a box that repeats".to_owned(), expected]);
+    };
+    let upright = |lattice: &Lattice| brought_back(lattice.edges, lattice.leaning());
+    let [own, other] = [cell.lattice.periodic, around.lattice.periodic];
+    if (0..3).any(|edge| other[edge] && !own[edge]) {
+        let found = format!("a box that repeats along {}", names(other));
+        return Some([found, format!("one that repeats as [cell] does, along {}", names(own))]);
+    }
+    let shared = [0, 1, 2].map(|edge| own[edge] && (other[edge] || !around.is_told));
+    let [here, there] = [&cell.lattice, &around.lattice].map(|it| upright(&Lattice { periodic: shared, ..*it }));
+    let longest = here.as_flattened().iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let differs = |edge: usize| (0..3).any(|axis| (here[edge][axis] - there[edge][axis]).abs() > DIGITS * longest);
+    let found = || format!("a box with edges {:?} m", around.lattice.edges);
+    (0..3)
+        .any(|edge| shared[edge] && differs(edge))
+        .then(|| [found(), format!("the edges of [cell], {:?} m", cell.lattice.edges)])
 }
 
 /// A table, a key, and what is wrong.
@@ -197,20 +269,15 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     let at_cell = |key, found: String, expected: &str| {
         ("cell".to_owned(), key, Mistake::Unexpected { found, expected: expected.to_owned() })
     };
-    let Lattice { origin, edges: [a, b, c], periodic } = cell.lattice;
-    let numbers = [origin, a, b, c];
-    if !numbers.as_flattened().iter().all(|number| number.is_finite()) || !cell.lattice.volume().is_normal() {
-        return vec![at_cell("edges", format!("{:?}", cell.lattice.edges), "finite numbers and a volume")];
-    }
-    if a[1] != 0.0 || a[2] != 0.0 || b[2] != 0.0 || a[0] <= 0.0 || b[1] <= 0.0 || c[2] <= 0.0 {
-        let expected = "[[ax, 0, 0], [bx, by, 0], [cx, cy, cz]] with ax, by, cz above 0";
+    let periodic = cell.lattice.periodic;
+    if let Some(expected) = fault_of(&cell.lattice) {
         return vec![at_cell("edges", format!("{:?}", cell.lattice.edges), expected)];
     }
     let mut found = Vec::new();
     if periodic == [false; 3] {
         found.push(at_cell("periodic", "none".to_owned(), "at least one edge along which the cell repeats"));
     }
-    let largest = scene.particles.iter().fold(0.0_f64, |most, particle| most.max(particle.radius));
+    let largest = scene.radii().fold(0.0, f64::max);
     let heights = cell.lattice.heights();
     if let Some(edge) = (0..3).find(|&edge| periodic[edge] && heights[edge] < largest) {
         let narrow = format!("faces {:?} m apart along {}", heights[edge], AXES[edge]);
@@ -225,9 +292,6 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
                 "components of edges that repeat",
             ));
         }
-    }
-    if let Some(component) = cell.shear.filter(|&component| component < 3) {
-        found.push(at_cell("motion.shear", STRAINS[component].to_owned(), "xy, xz or yz"));
     }
     // What is further away than pairs reach has no image; an image of each edge up to there is made.
     let distance = scene.bonds.iter().filter_map(|bond| bond.create_distance()).fold(0.0, f64::max);
@@ -246,24 +310,9 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
     let mut found = Vec::new();
     for boundary in &scene.boundaries {
         let table = format!("boundary.{}", boundary.name);
-        let crosses = |normal: [f64; 3]| {
-            let edges = cell.lattice.edges.iter().zip(cell.lattice.periodic).filter(|(_, periodic)| *periodic);
-            let lies = |edge: Vector| edge.dot(normal.into()).abs() <= ALONG * edge.length();
-            edges.map(|(edge, _)| Vector::from(*edge)).any(|edge| !lies(edge))
-        };
-        let message = match boundary.shifting_plane() {
-            None => {
-                "expected planes that do not turn beside [cell], found another boundary; other shapes have no images yet"
-            }
-            Some(plane) if crosses(plane.normal) => {
-                "expected a plane along the edges that repeat, found one that crosses them"
-            }
-            Some(_) if cell.moves() => {
-                "expected no boundary beside a [cell] that is deformed, found one, which would not be deformed with it"
-            }
-            Some(_) => continue,
-        };
-        found.push(refused(table, boundary.shape.key(), message));
+        if let Some((key, message)) = refused_boundary(boundary, cell) {
+            found.push(refused(table, if key.is_empty() { boundary.shape.key() } else { key }, message));
+        }
     }
     for bond in &scene.bonds {
         let table = format!("bond.{}", bond.name);
@@ -273,24 +322,14 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
                 "between",
                 "expected bonds between particles beside [cell], found bonds at a plane",
             ));
-        } else if matches!(bond.keys.create, Creation::Always) {
-            found.push(refused(
-                table,
-                "create",
-                "expected bonds that are made at a time beside [cell], found \"always\"",
-            ));
         }
     }
-    let tables = [
-        ("region", scene.regions.iter().map(|it| &it.name).next()),
-        ("insertion", scene.insertions.iter().map(|it| &it.name).next()),
-        ("outlet", scene.outlets.iter().map(|it| &it.name).next()),
-        ("flow_meter", scene.meters.iter().map(|it| &it.name).next()),
-    ];
-    for (kind, name) in tables {
-        if let Some(name) = name {
-            let message = format!("expected no [{kind}] beside [cell], found one; it has no images yet");
-            found.push(refused(format!("{kind}.{name}"), "", &message));
+    for outlet in &scene.outlets {
+        if let OutletPlace::Beyond([_, normal]) = outlet.place
+            && !lies_along(cell, normal)
+        {
+            let message = "expected a plane along the edges that repeat, found one that crosses them";
+            found.push(refused(format!("outlet.{}", outlet.name), "beyond", message));
         }
     }
     if cell.moves() && (scene.gravity != [0.0; 3] || !scene.forces.is_empty()) {
@@ -308,12 +347,142 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
         .boundaries
         .iter()
         .map(|it| ("boundary", &it.name))
+        .chain(scene.regions.iter().map(|it| ("region", &it.name)))
+        .chain(scene.insertions.iter().map(|it| ("insertion", &it.name)))
+        .chain(scene.outlets.iter().map(|it| ("outlet", &it.name)))
+        .chain(scene.meters.iter().map(|it| ("flow_meter", &it.name)))
         .chain(scene.probes.iter().map(|it| ("probe", &it.name)));
     for (kind, name) in named.filter(|(_, name)| *name == "cell") {
         let (found_name, expected) = ("that of [cell]".to_owned(), "a name of its own".to_owned());
         found.push((format!("{kind}.{name}"), "", Mistake::Unexpected { found: found_name, expected }));
     }
     found
+}
+
+/// What a boundary beside a cell cannot be: the key, if not that of the shape, and why.
+fn refused_boundary(boundary: &Boundary, cell: &Cell) -> Option<(&'static str, &'static str)> {
+    let edges = || {
+        let edges = cell.lattice.edges.iter().zip(cell.lattice.periodic);
+        edges.filter(|(_, periodic)| *periodic).map(|(edge, _)| Vector::from(*edge))
+    };
+    if cell.moves() {
+        return Some((
+            "",
+            "expected no boundary beside a [cell] that is deformed, found one, which would not be deformed with it",
+        ));
+    }
+    if boundary.driven_nodes() > 0 {
+        return Some(("nodes", "expected rigid nodes beside [cell], found driven ones"));
+    }
+    // Images of particles turn with them; copies of a surface would go around with it.
+    let about = |axis: usize| {
+        let along = edges().all(|edge| (0..3).all(|other| other == axis || edge.to_array()[other] == 0.0));
+        let across = (0..3).all(|edge| edge == axis || cell.lattice.edges[edge][axis] == 0.0);
+        along && across || boundary.axes[3 + axis].is_fixed()
+    };
+    if boundary.shape.members().is_empty() && !(0..3).all(about) {
+        let message = "expected a surface beside [cell] that turns only about the one edge that repeats, across its faces, found one that turns otherwise";
+        return Some(("motion", message));
+    }
+    let plane = boundary.shape.plane()?;
+    (!lies_along(cell, plane.normal))
+        .then_some(("", "expected a plane along the edges that repeat, found one that crosses them"))
+}
+
+/// Whether a plane with this normal lies along all edges that repeat.
+fn lies_along(cell: &Cell, normal: [f64; 3]) -> bool {
+    let lies = |edge: Vector| edge.dot(normal.into()).abs() <= ALONG * edge.length();
+    let edges = cell.lattice.edges.iter().zip(cell.lattice.periodic);
+    edges.filter(|(_, periodic)| *periodic).all(|(edge, _)| lies(Vector::from(*edge)))
+}
+
+/// Lets surfaces go on through the faces of a cell that repeats.
+pub(in crate::scene) fn repeat_surfaces(scene: &mut SceneDraft) -> Vec<Objection> {
+    let Some(cell) = scene.cell.filter(|_| objections(scene).is_empty()) else { return Vec::new() };
+    let largest = scene.radii().fold(0.0, f64::max);
+    // Lists reach by the skin and what a law holds beyond touch; particles may be out of the cell by the skin, spheres by their clump.
+    let reach = 2.0 * (largest + scene.run.skin.unwrap_or(0.0).max(largest)) + scene.widest_clump();
+    let mut found = Vec::new();
+    for boundary in scene.boundaries.iter_mut().filter(|boundary| boundary.shape.material().is_some()) {
+        let copies = copies(boundary, &cell.lattice, reach);
+        match copies.and_then(|copies| boundary.shape.with_copies(copies)) {
+            Ok(shape) => boundary.shape = shape,
+            Err([found_shape, expected]) => {
+                let mistake = Mistake::Unexpected { found: found_shape, expected };
+                found.push((format!("boundary.{}", boundary.name), boundary.shape.key(), mistake));
+            }
+        }
+    }
+    found
+}
+
+/// Where the copies of a surface stand that particles in a cell reach \[m\].
+fn copies(boundary: &Boundary, lattice: &Lattice, reach: f64) -> Result<Copies, [String; 2]> {
+    let shape = &boundary.shape;
+    let mut points = shape.facets(&[]).unwrap_or_default().points;
+    if points.is_empty() && shape.plane().is_none() {
+        // The box around what is no further than it reaches.
+        let reference = Vector::from(boundary.reference);
+        let extent = shape.features().map_or(f64::INFINITY, |features| features.extent(reference));
+        for corner in 0..8 {
+            let side = |axis: usize| if corner >> axis & 1 == 0 { -extent } else { extent };
+            points.push(reference + Vector::new(side(0), side(1), side(2)));
+        }
+    }
+    let heights = lattice.heights();
+    // Moved along an edge, it is brought back where it has gone by half of one.
+    let moves = |edge: usize| {
+        let along = |axis: usize| {
+            let mut end = lattice.origin;
+            end[axis] += lattice.edges[edge][edge];
+            lattice.parts(end)[edge] != 0.0
+        };
+        (0..3).any(|axis| {
+            let motion = &boundary.axes[axis];
+            !motion.is_fixed() && !matches!(motion, AxisMotion::Conveying(_)) && along(axis)
+        })
+    };
+    let mut range = [[0, 0]; 3];
+    for edge in (0..3).filter(|&edge| lattice.periodic[edge] && !points.is_empty()) {
+        let parts = points.iter().map(|point| lattice.parts(point.to_array())[edge]);
+        let [low, high] =
+            parts.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| [low.min(part), high.max(part)]);
+        let beyond = reach / heights[edge] + if moves(edge) { 0.5 } else { 0.0 };
+        let (from, to) = ((-beyond - high).ceil(), (1.0 + beyond - low).floor());
+        if from < -MOST_IMAGES || to > MOST_IMAGES {
+            let found = format!("copies from {from} to {to} edges away along {}", AXES[edge]);
+            return Err([found, format!("no more than {MOST_IMAGES}: a wider cell, or a surface nearer to it")]);
+        }
+        range[edge] = [from.min(0.0) as i64, to.max(0.0) as i64];
+    }
+    let [a, b, c] = range.map(|[from, to]| from..=to);
+    let mut counts = vec![[0; 3]];
+    for k in c {
+        for j in b.clone() {
+            counts.extend(a.clone().map(|i| [i, j, k]).filter(|count| *count != [0; 3]));
+        }
+    }
+    let shifts: Vec<Vector> = counts.iter().map(|count| lattice.displacement(*count).into()).collect();
+    // A copy is beyond the surface as seen along the way to it, or along the normal of a face.
+    let width = |of: &dyn Fn(&Vector) -> f64| {
+        let [low, high] = points
+            .iter()
+            .map(of)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], part| [low.min(part), high.max(part)]);
+        high - low
+    };
+    let widths = [0, 1, 2].map(|edge| width(&|point| lattice.parts(point.to_array())[edge]));
+    let is_beyond = |(count, shift): (&[i64; 3], &Vector)| {
+        width(&|point| point.dot(*shift)) <= shift.dot(*shift) * WIDE
+            || (0..3).any(|edge| widths[edge] <= count[edge].abs() as f64 * WIDE && count[edge] != 0)
+    };
+    match counts.iter().zip(&shifts).skip(1).find(|copy| !is_beyond(*copy)) {
+        None => Ok(Copies { counts, shifts }),
+        Some((_, shift)) => {
+            let found = format!("a surface wider than its copy at {:?} m is away", shift.to_array());
+            Err([found, "one that is no wider than the cell".to_owned()])
+        }
+    }
 }
 
 /// Spheres with the images of those that are no further than `depth` \[m\] from the cell, and whose image each is.
@@ -329,8 +498,7 @@ pub(in crate::scene) fn with_images(
         return originals;
     }
     for (position, _) in spheres.iter_mut() {
-        let shift = cell.lattice.displacement(cell.lattice.edges_away(*position));
-        *position = [0, 1, 2].map(|axis| position[axis] - shift[axis]);
+        *position = cell.lattice.brought_back(*position);
     }
     for index in 0..own {
         let (position, radius) = spheres[index];

@@ -8,12 +8,14 @@ pub(crate) struct Faults<'d, 'a> {
     document: &'d Document<'a>,
     /// The mistakes so far.
     list: Vec<SceneError>,
+    /// What is written and legal and nothing reads, in words.
+    unread: Vec<String>,
 }
 
 impl<'d, 'a> Faults<'d, 'a> {
     /// None yet.
     pub(crate) fn new(document: &'d Document<'a>) -> Self {
-        Self { document, list: Vec::new() }
+        Self { document, list: Vec::new(), unread: Vec::new() }
     }
 
     /// How many there are.
@@ -38,6 +40,16 @@ impl<'d, 'a> Faults<'d, 'a> {
         self.list.push(SceneError { file, line, table, key, mistake });
     }
 
+    /// A key of a table that nothing reads, and why.
+    pub(crate) fn unread(&mut self, table: &str, key: &str, why: &str) {
+        self.unread.push(format!("[{table}] {key}: nothing reads it; {why}"));
+    }
+
+    /// What nothing reads.
+    pub(crate) fn all_unread(&self) -> &[String] {
+        &self.unread
+    }
+
     /// All of them, in the order of the scene's lines and then of other files'; none is success.
     pub(crate) fn finish(mut self) -> Result<(), SceneErrors> {
         if self.list.is_empty() {
@@ -50,6 +62,6 @@ impl<'d, 'a> Faults<'d, 'a> {
 
     /// Stops here if there is any.
     pub(crate) fn so_far(&self) -> Result<(), SceneErrors> {
-        Self { document: self.document, list: self.list.clone() }.finish()
+        Self { list: self.list.clone(), ..Self::new(self.document) }.finish()
     }
 }

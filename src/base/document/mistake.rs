@@ -185,7 +185,7 @@ pub enum Mistake {
     /// Two particles inside one another.
     #[error(
         "expected overlaps of at most {permitted} of the smaller radius ([run] max_overlap), found {overlap:.3} \
-         between particles {a} and {b}{}", and_more(*.more, "pair")
+         between particles {a} and {b}{}{}", if *.across { " through a face of the cell" } else { "" }, and_more(*.more, "pair")
     )]
     Overlap {
         /// A particle.
@@ -196,6 +196,8 @@ pub enum Mistake {
         overlap: f64,
         /// What is permitted of it.
         permitted: f64,
+        /// Whether one is an image of itself in a periodic cell.
+        across: bool,
         /// How many further pairs overlap as badly.
         more: usize,
     },

@@ -4,6 +4,7 @@
 //! told by the setting, those elsewhere by the lines of the text as it was.
 
 use super::error::{SceneError, SceneErrors};
+use super::mistake::Mistake;
 use std::fmt;
 use std::str::FromStr;
 use toml::Spanned;
@@ -83,12 +84,19 @@ struct Change {
 #[derive(Default)]
 pub(crate) struct Changes(Vec<Change>);
 
-/// Changes a text. A text that cannot be parsed stays as it is; its mistakes are reported when the scene is read.
-pub(crate) fn apply(text: &mut String, settings: &[Setting]) -> Changes {
+/// Changes a text; refuses what cannot be set. A text that cannot be parsed stays as it is; its mistakes are reported when the scene is
+/// read.
+pub(crate) fn apply(text: &mut String, settings: &[Setting]) -> Result<Changes, SceneErrors> {
     let mut changes = Changes::default();
     for setting in settings {
-        let Ok(root) = DeTable::parse(text) else { return changes };
+        let Ok(root) = DeTable::parse(text) else { break };
         let root = Spanned::new(root.span(), DeValue::Table(root.into_inner()));
+        if let Some(mistake) = objection(text, &root, setting) {
+            let (file, key) = (format!("--set {setting}"), setting.key.clone());
+            return Err(SceneErrors {
+                list: vec![SceneError { file, line: None, table: String::new(), key, mistake }],
+            });
+        }
         let edit = edit(text, &root, setting);
         let (from, to) = (edit.from, edit.to);
         let lines = |text: &str| text.matches('\n').count();
@@ -98,7 +106,23 @@ pub(crate) fn apply(text: &mut String, settings: &[Setting]) -> Changes {
         changes.0.push(Change { line, old: lines(&text[from..to]), new, whole: edit.whole, setting: setting.clone() });
         text.replace_range(from..to, &edit.text);
     }
-    changes
+    Ok(changes)
+}
+
+/// Why a text has no place for a setting.
+fn objection(text: &str, root: &Spanned<DeValue>, setting: &Setting) -> Option<Mistake> {
+    let unexpected = |found: &str, expected: String| Some(Mistake::Unexpected { found: found.to_owned(), expected });
+    let mut value = root;
+    for name in setting.key.split('.') {
+        value = match (child(value, name), value.get_ref()) {
+            (Some(below), _) => below,
+            (None, DeValue::Table(_)) => return None,
+            (None, DeValue::Array(list)) => return unexpected(name, format!("an entry from 1 to {}", list.len())),
+            (None, other) => return unexpected(other.type_str(), format!("a table that may have a key {name}")),
+        };
+    }
+    let is_value = !matches!(value.get_ref(), DeValue::Table(_)) || text[value.span()].starts_with('{');
+    if is_value { None } else { unexpected("a table under a heading", "its keys one by one".to_owned()) }
 }
 
 /// What replaces a part of a text.
@@ -187,7 +211,7 @@ mod tests {
     fn with(text: &str, settings: &[&str]) -> (String, Changes) {
         let settings: Vec<_> = settings.iter().map(|text| text.parse().unwrap()).collect();
         let mut text = text.to_owned();
-        let changes = apply(&mut text, &settings);
+        let changes = apply(&mut text, &settings).unwrap();
         (text, changes)
     }
 
@@ -213,10 +237,27 @@ mod tests {
     fn a_table_is_replaced_only_where_it_is_a_value() {
         let (changed, _) = with("[a]\nx = { y = 1 }\n", &["a.x={ z = 2 }"]);
         assert_eq!(changed, "[a]\nx = { z = 2 }\n");
-        // One under a heading is not cut to pieces: that it is there twice is told by the setting.
-        let (changed, changes) = with("[a.x.y]\nz = 1\n", &["a.x={ z = 2 }"]);
-        assert_eq!(changed, "[a.x.y]\nz = 1\n[a]\nx = { z = 2 }\n");
-        assert_eq!(changes.0.len(), 1);
+    }
+
+    #[test]
+    fn what_a_text_has_no_place_for_is_refused() {
+        let text = "[a.x.y]\nz = 1\nlist = [{ x = 1 }, { x = 3 }]\n";
+        let told = |setting: &str| {
+            let refused = apply(&mut text.to_owned(), &[setting.parse().unwrap()]);
+            refused.err().map(|errors| errors.to_string())
+        };
+        let expected = [
+            ("a.x={ z = 2 }", "expected its keys one by one, found a table under a heading"),
+            ("a.x.y.list.3.x=1", "expected an entry from 1 to 2, found 3"),
+            ("a.x.y.list.0.x=1", "expected an entry from 1 to 2, found 0"),
+            ("a.x.y.list.x=1", "expected an entry from 1 to 2, found x"),
+            ("a.x.y.z.w=1", "expected a table that may have a key w, found integer"),
+        ];
+        for (setting, words) in expected {
+            let told = told(setting).unwrap_or_default();
+            assert!(told.starts_with(&format!("--set {setting}")) && told.contains(words), "{told}");
+        }
+        assert_eq!(told("a.b.c=1"), None);
     }
 
     #[test]

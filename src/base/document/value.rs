@@ -68,8 +68,15 @@ impl<'de> Deserializer<'de> for Value<'de> {
         .map_err(|error| error.at(self.0.span()))
     }
 
-    fn deserialize_tuple<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Error> {
-        self.deserialize_seq(visitor)
+    fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Error> {
+        // What reads so many entries takes no notice of further ones.
+        match self.0.get_ref() {
+            DeValue::Array(list) if list.len() != length => {
+                let error: Error = de::Error::custom(format!("expected {length} entries, found {}", list.len()));
+                Err(error.at(self.0.span()))
+            }
+            _ => self.deserialize_seq(visitor),
+        }
     }
 
     fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {

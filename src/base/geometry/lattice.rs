@@ -23,6 +23,13 @@ pub(crate) fn is_behind([a, b, c]: [i64; 3]) -> bool {
     (c, b, a) > (0, 0, 0)
 }
 
+/// The displacement by so many edges \[m\].
+#[inline]
+pub(crate) fn displacement([a, b, c]: &[[f64; 3]; 3], edges: [i64; 3]) -> [f64; 3] {
+    let [i, j, k] = edges.map(|count| count as f64);
+    [i * a[0] + j * b[0] + k * c[0], j * b[1] + k * c[1], k * c[2]]
+}
+
 impl Lattice {
     /// Its volume \[m³\].
     pub fn volume(&self) -> f64 {
@@ -32,9 +39,13 @@ impl Lattice {
     /// The displacement by so many edges \[m\].
     #[inline]
     pub fn displacement(&self, edges: [i64; 3]) -> [f64; 3] {
-        let [i, j, k] = edges.map(|count| count as f64);
-        let [a, b, c] = &self.edges;
-        [i * a[0] + j * b[0] + k * c[0], j * b[1] + k * c[1], k * c[2]]
+        displacement(&self.edges, edges)
+    }
+
+    /// A displacement in whole edges, along those that repeat.
+    pub(crate) fn whole_edges(&self, [x, y, z]: [f64; 3]) -> [i64; 3] {
+        let parts = self.parts([self.origin[0] + x, self.origin[1] + y, self.origin[2] + z]);
+        [0, 1, 2].map(|edge| if self.periodic[edge] { parts[edge].round() as i64 } else { 0 })
     }
 
     /// A point in parts of the edges.
@@ -45,6 +56,12 @@ impl Lattice {
         let along_c = z / c[2];
         let along_b = (y - along_c * c[1]) / b[1];
         [(x - along_b * b[0] - along_c * c[0]) / a[0], along_b, along_c]
+    }
+
+    /// The point of these parts of the edges \[m\].
+    pub(crate) fn point(&self, [i, j, k]: [f64; 3]) -> [f64; 3] {
+        let ([a, b, c], [x, y, z]) = (&self.edges, self.origin);
+        [x + i * a[0] + j * b[0] + k * c[0], y + j * b[1] + k * c[1], z + k * c[2]]
     }
 
     /// Distance of the two faces that each edge joins \[m\].
@@ -63,6 +80,12 @@ impl Lattice {
         [0, 1, 2].map(|edge| if self.periodic[edge] { parts[edge].floor() as i64 } else { 0 })
     }
 
+    /// A point, brought back into the cell.
+    pub(crate) fn brought_back(&self, point: [f64; 3]) -> [f64; 3] {
+        let shift = self.displacement(self.edges_away(point));
+        [0, 1, 2].map(|axis| point[axis] - shift[axis])
+    }
+
     /// Distance of a point from the nearest image of another \[m\].
     pub(crate) fn distance(&self, a: [f64; 3], b: [f64; 3]) -> f64 {
         let [x, y, z] = self.nearest(a, b);
@@ -72,9 +95,7 @@ impl Lattice {
     /// The vector to a point from the nearest image of another \[m\]; in a cell that leans much, from one that is near.
     pub(crate) fn nearest(&self, a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
         let apart = [0, 1, 2].map(|axis| a[axis] - b[axis]);
-        let parts = self.parts([0, 1, 2].map(|axis| self.origin[axis] + apart[axis]));
-        let whole = [0, 1, 2].map(|edge| if self.periodic[edge] { parts[edge].round() as i64 } else { 0 });
-        let shift = self.displacement(whole);
+        let shift = self.displacement(self.whole_edges(apart));
         [0, 1, 2].map(|axis| apart[axis] - shift[axis])
     }
 
@@ -94,6 +115,35 @@ impl Lattice {
                 for a in range(0).filter(|&a| is_behind([a, b, c])) {
                     hand([a, b, c]);
                 }
+            }
+        }
+    }
+
+    /// The least and the largest part of each edge of what is in a box \[m\].
+    pub(crate) fn parts_of_box(&self, corners: [[f64; 3]; 2]) -> [[f64; 2]; 3] {
+        let mut found = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
+        for corner in 0..8 {
+            let parts = self.parts([0, 1, 2].map(|axis| corners[corner >> axis & 1][axis]));
+            for ([low, high], part) in found.iter_mut().zip(parts) {
+                (*low, *high) = (low.min(part), high.max(part));
+            }
+        }
+        found
+    }
+
+    /// Hands out by how much a point is displaced to where it or an image of it is no further than `depth` from between these parts
+    /// of the edges \[m\].
+    #[inline]
+    pub(crate) fn near(&self, point: [f64; 3], parts: &[[f64; 2]; 3], depth: f64, mut hand: impl FnMut([f64; 3])) {
+        let (own, heights) = (self.parts(point), self.heights());
+        let range = |edge: usize| {
+            let ([low, high], margin) = (parts[edge], depth / heights[edge]);
+            let [from, to] = [(low - margin - own[edge]).ceil(), (high + margin - own[edge]).floor()];
+            if self.periodic[edge] { from as i64..=to as i64 } else { 0..=0 }
+        };
+        for c in range(2) {
+            for b in range(1) {
+                range(0).for_each(|a| hand(self.displacement([a, b, c])));
             }
         }
     }

@@ -5,8 +5,9 @@ mod probes;
 pub use probes::{Sight, sights};
 
 use crate::base::number::Vector;
+use crate::engine::cell::near::{self, Place};
 use crate::engine::clumps;
-use crate::engine::simulation::Simulation;
+use crate::engine::simulation::{ContactRecord, Simulation};
 use crate::engine::state::State;
 use crate::engine::state::contacts::is_told;
 use crate::scene::{ClumpShape, Region};
@@ -59,7 +60,7 @@ pub fn contents(simulation: &Simulation) -> Vec<Content> {
 
 /// Contacts of the particles in each region of the scene.
 pub fn coordination(simulation: &Simulation) -> Vec<Coordination> {
-    simulation.scene().regions.iter().map(|region| coordination_in(region, simulation.state())).collect()
+    simulation.scene().regions.iter().map(|region| coordination_in(region, simulation)).collect()
 }
 
 /// What contacts and bonds carry in each region of the scene: −Σ s l ⊗ f \[J\], tension positive; the stress times the volume of
@@ -70,23 +71,35 @@ pub fn coordination(simulation: &Simulation) -> Vec<Coordination> {
 pub fn carried(simulation: &Simulation) -> Vec<Tensor> {
     let (regions, state) = (&simulation.scene().regions, simulation.state());
     let shifts: Vec<Vector> = regions.iter().map(|region| shift(region, state)).collect();
+    let places: Vec<Place> = regions.iter().map(|region| place(region, simulation)).collect();
     let mut sums = vec![Tensor::default(); regions.len()];
     let mut add = |to: Vector, from: Vector, force: Vector| {
-        for ((region, shift), sum) in regions.iter().zip(&shifts).zip(&mut sums) {
-            let share = region.shape.share_of_line(from - *shift, to - *shift);
-            if share > 0.0 {
-                add_product(sum, (to - from) * -share, force);
-            }
+        for (((region, shift), place), sum) in regions.iter().zip(&shifts).zip(&places).zip(&mut sums) {
+            let way = to - from;
+            place.meets(to, way.length(), |to| {
+                let share = region.shape.share_of_line(to - way - *shift, to - *shift);
+                if share > 0.0 {
+                    add_product(sum, way * -share, force);
+                }
+            });
         }
     };
-    let centre = |index: u32| Vector::from(state.particles.position[state.particles.slot[index as usize] as usize]);
+    let row = |index: u32| state.particles.position[state.particles.slot[index as usize] as usize];
+    let centre = |index: u32| Vector::from(row(index));
+    // In a cell what is touched may be an image, which is behind the contact.
+    let touched = |contact: &ContactRecord, other: u32| match state.cell {
+        None => centre(other),
+        Some(_) => {
+            let apart = row(contact.first)[3] + row(other)[3] - contact.overlap;
+            centre(contact.first) - Vector::from(contact.normal) * apart
+        }
+    };
     simulation.each_contact(&mut |contact| {
         let force = Vector::from(contact.normal) * contact.normal_force + contact.tangential_force.into();
-        add(centre(contact.first), contact.second.map_or_else(|| contact.point.into(), centre), force);
+        let other = contact.second.map_or_else(|| contact.point.into(), |other| touched(&contact, other));
+        add(centre(contact.first), other, force);
     });
-    simulation.each_bond(&mut |bond| {
-        add(centre(bond.first), bond.second.map_or_else(|| bond.other.into(), centre), bond.force.into());
-    });
+    simulation.each_bond(&mut |bond| add(bond.position.into(), bond.other.into(), bond.force.into()));
     sums
 }
 
@@ -104,16 +117,25 @@ fn shift(region: &Region, state: &State) -> Vector {
     region.follows.map_or(Vector::zero(), |boundary| state.boundaries[boundary.index()].displacement.into())
 }
 
+/// Where particles meet a region.
+fn place(region: &Region, simulation: &Simulation) -> Place {
+    let shift = shift(region, simulation.state());
+    let corners = region.shape.bounds().map(|corner| (Vector::from(corner) + shift).to_array());
+    Place::of(simulation.scene(), simulation.state(), corners)
+}
+
 /// The particles in a region.
 fn content(region: &Region, simulation: &Simulation) -> Content {
     let (scene, state) = (simulation.scene(), simulation.state());
-    let (particles, shift) = (&state.particles, shift(region, state));
+    let (particles, shift, place) = (&state.particles, shift(region, state), place(region, simulation));
     let fullness: Vec<f64> = scene.clump_shapes.iter().map(ClumpShape::fullness).collect();
     let mut inside = Vec::new();
     let mut content = Content::default();
-    for (slot, position) in particles.position.iter().enumerate() {
+    for slot in near::particles(state) {
+        let (position, mut volume) = (particles.position[slot], 0.0);
         let radius = position[3];
-        let volume = region.shape.volume_of_sphere(Vector::from(*position) - shift, radius);
+        let part = |centre: Vector| volume += region.shape.volume_of_sphere(centre - shift, radius);
+        place.meets(position.into(), radius, part);
         if volume > 0.0 {
             let mass = clumps::mass_of(scene, (particles, &state.clumps), slot) * (volume / sphere_volume(radius));
             content.solid +=
@@ -141,16 +163,20 @@ fn sphere_volume(radius: f64) -> f64 {
 }
 
 /// Contacts of the particles in a region.
-fn coordination_in(region: &Region, state: &State) -> Coordination {
-    let shift = shift(region, state);
-    let centre = |position: &[f64; 4]| region.shape.holds(Vector::from(*position) - shift);
-    let inside: Vec<bool> = state.particles.position.iter().map(centre).collect();
-    let ends = |slots: &[u32], flags: &[u8]| {
-        let told = slots.iter().zip(flags).filter(|(slot, flags)| is_told(**flags) && inside[**slot as usize]);
-        told.count() as u64
+fn coordination_in(region: &Region, simulation: &Simulation) -> Coordination {
+    let (state, place) = (simulation.state(), place(region, simulation));
+    let (particles, shift) = (&state.particles, shift(region, state));
+    let mut inside = vec![0_u64; particles.len()];
+    for slot in near::particles(state) {
+        place.meets(particles.position[slot].into(), 0.0, |centre| {
+            inside[slot] += u64::from(region.shape.holds(centre - shift));
+        });
+    }
+    let ends = |slots: &[u32], flags: &[u8]| -> u64 {
+        let told = slots.iter().zip(flags).filter(|(_, flags)| is_told(**flags));
+        told.map(|(slot, _)| inside[particles.original(*slot) as usize]).sum()
     };
     let pairs = state.contacts.iter().map(|list| ends(&list.first, &list.flags) + ends(&list.second, &list.flags));
     let walls = state.walls.iter().map(|list| ends(&list.particle, &list.flags));
-    let particles = inside.iter().filter(|inside| **inside).count() as u64;
-    Coordination { particles, contacts: pairs.chain(walls).sum() }
+    Coordination { particles: inside.iter().sum(), contacts: pairs.chain(walls).sum() }
 }

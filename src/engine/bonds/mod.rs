@@ -137,7 +137,9 @@ impl BondPass {
                 pairs.push([a, b]);
             }
         };
-        if self.creation.is_continual() && self.creation.bonds_near_pairs(moment) {
+        // What is remembered goes by particles, which does not tell an image.
+        let remembers = self.creation.is_continual() && state.cell.is_none();
+        if remembers && self.creation.bonds_near_pairs(moment) {
             let mut near = self.near.lock().unwrap_or_else(PoisonError::into_inner);
             near.pairs(particles, self.create_distance, hand);
         } else if self.creation.bonds_near_pairs(moment) {

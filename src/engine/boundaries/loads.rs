@@ -1,6 +1,7 @@
 //! What boundaries feel in a time step: loads, and the impulses and the work that follow from them.
 
 use super::course::BoundaryTravel;
+use super::rigid_body::came_to;
 use crate::base::number::Vector;
 use crate::engine::state::{BoundaryState, Particles, State};
 use crate::laws::motion::{InputCourse, Progress};
@@ -29,16 +30,18 @@ pub(crate) fn clear(state: &mut State, before: &mut Vec<BoundaryLoads>) {
 
 /// Sums the loads of the particles in groups, as the passes left them, onto their boundary.
 pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
-    for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
+    let State { boundaries, particles, cell, .. } = state;
+    for (boundary, moved) in scene.boundaries.iter().zip(boundaries) {
         let members = boundary.shape.members();
         if members.is_empty() {
             continue;
         }
         let (mut force, mut moment) = (Vector::zero(), Vector::zero());
         for &member in members {
-            let slot = state.particles.slot[member as usize] as usize;
-            let Particles { position, force: loads, torque, .. } = &state.particles;
-            let (load, arm) = (Vector::from(loads[slot]), Vector::from(position[slot]) - moved.pivot.into());
+            let slot = particles.slot[member as usize] as usize;
+            let Particles { position, force: loads, torque, .. } = &*particles;
+            let place = came_to(cell.as_ref(), member, Vector::from(position[slot]));
+            let (load, arm) = (Vector::from(loads[slot]), place - moved.pivot.into());
             force += load;
             moment += arm.cross(load) + Vector::from(torque[slot]);
         }

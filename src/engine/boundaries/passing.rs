@@ -24,6 +24,8 @@ pub(crate) struct Passing {
     jumps: Vec<bool>,
     /// Radius of the smallest particle \[m\].
     smallest: f64,
+    /// Whether particles are brought back into a periodic cell.
+    in_cell: bool,
     /// Which materials touch each other.
     laws: GoverningLaws,
 }
@@ -62,6 +64,7 @@ impl Passing {
             groups: scene.boundaries.iter().map(extent).collect(),
             jumps: scene.boundaries.iter().map(|boundary| boundary.input == InputCourse::Hold).collect(),
             smallest: scene.radii().fold(f64::INFINITY, f64::min),
+            in_cell: scene.cell.is_some(),
             laws: scene.governing_laws(),
         }
     }
@@ -74,15 +77,15 @@ impl Passing {
     /// Where a boundary stood before the present time step, and where it stands.
     pub(crate) fn frames(&self, boundary: usize, moved: &BoundaryState) -> [Frame; 2] {
         [moved.before, moved.stand()]
-            .map(|stand| Frame::of(self.references[boundary], stand.displacement.into(), stand.orientation.0))
+            .map(|stand| Frame::of(self.references[boundary], moved.shift_at(&stand).into(), stand.orientation.0))
     }
 
     /// Where the centre of a particle (slot) was before the present time step, to rounding \[m\].
     fn origin(&self, boundaries: &[BoundaryState], particles: MovedParticles, slot: usize) -> Vector {
         let centre = Vector::from(particles.position[slot]);
         match particles.owner[slot] {
-            // A sphere of a clump was there to the second order of the step.
-            owner if owner == 0 || owner as usize > boundaries.len() => {
+            // A sphere of a clump, or of a group in a cell, was there to the second order of the step.
+            owner if owner == 0 || owner as usize > boundaries.len() || self.in_cell => {
                 centre - Vector::from(particles.velocity[slot]) * particles.step
             }
             owner => {
@@ -148,8 +151,9 @@ impl Passing {
         let [_, now] = self.frames(group, &state.boundaries[group]);
         let (own, material) = (group as u32 + 1, &state.particles.material);
         let count = particles.position.len();
+        let owner = |slot: usize| particles.owner[state.particles.original(slot as u32) as usize];
         let members: Vec<(Vector, f64, u32)> = (0..count)
-            .filter(|&slot| particles.owner[slot] == own)
+            .filter(|&slot| owner(slot) == own)
             .map(|slot| (now.inside(particles.position[slot].into()), particles.position[slot][3], material[slot]))
             .collect();
         let around = |largest: bool| {
@@ -177,7 +181,7 @@ impl Passing {
             !(0..3).any(beside)
                 && near.any(|(centre, other, _)| goes_over([from - *centre, to - *centre], radius + other))
         };
-        (0..count).filter(|&slot| particles.owner[slot] != own).find(through).map(|slot| slot as u32)
+        (0..count).filter(|&slot| owner(slot) != own).find(through).map(|slot| slot as u32)
     }
 }
 

@@ -9,10 +9,9 @@
 
 use crate::base::geometry::Lattice;
 use crate::base::geometry::lattice::{brought_back, counted_anew, is_behind};
-use crate::engine::clumps::{self, ClumpBodies};
 use crate::engine::state::cell::CellState;
 use crate::engine::state::{IMAGE, Particles, Row, State};
-use crate::scene::{Bond, Scene};
+use crate::scene::{Bond, Scene, Shape};
 use std::collections::BTreeMap;
 
 /// What is rounded must not leave an image out.
@@ -49,7 +48,7 @@ impl Images {
             lattice,
             largest: scene.radii().fold(0.0, f64::max),
             bonded: scene.bonds.iter().map(distance).fold(0.0, f64::max),
-            outside: clumps::farthest(&ClumpBodies::begun(scene)),
+            outside: scene.widest_clump(),
         })
     }
 
@@ -64,13 +63,14 @@ impl Images {
     }
 
     /// Brings particles back into the cell and makes the images within the reach of pairs: gaps up to `skin` \[m\], and bonds. Lists
-    /// refer to the new rows afterwards.
-    pub(crate) fn renew(&self, state: &mut State, skin: f64) {
+    /// refer to the new rows afterwards, and to the copies of these surfaces that stand where they were touched.
+    pub(crate) fn renew(&self, state: &mut State, shapes: &[&Shape], skin: f64) {
         let Some(mut cell) = state.cell.take() else { return };
         self.straighten(&mut cell);
         let lattice = self.lattice(&cell);
         let before = whereabouts(&cell, &state.particles);
         let lists = Lists::of(state, &before);
+        let before_by_index = cell.edges_away.clone();
         let row = self.bring_back(&mut cell, state, &lattice);
         let mut images = self.near(state, &lattice, skin);
         images.extend(lists.wanted(&cell, &row));
@@ -78,8 +78,35 @@ impl Images {
         images.dedup();
         put_images(&mut cell, state, images);
         lists.rewrite(state, &cell, &row);
+        self.follow_surfaces(state, (&cell, &before_by_index), shapes);
         place(&lattice, &cell, &mut state.particles);
         state.cell = Some(cell);
+    }
+
+    /// Brings surfaces back by whole edges, and contacts to the copies that stand where their particles are now, which were away by
+    /// so many edges.
+    fn follow_surfaces(&self, state: &mut State, (cell, away): (&CellState, &[[i64; 3]]), shapes: &[&Shape]) {
+        let lattice = self.lattice(cell);
+        let State { boundaries, walls, particles, .. } = state;
+        let mut went = vec![[0; 3]; boundaries.len()];
+        for ((moved, shape), went) in boundaries.iter_mut().zip(shapes).zip(&mut went) {
+            if shape.features().is_some() {
+                let edges = lattice.whole_edges(moved.displacement);
+                *went = less(edges, lattice.whole_edges(moved.brought_back));
+                moved.brought_back = lattice.displacement(edges);
+            }
+        }
+        for list in walls {
+            let boundary = list.boundary as usize;
+            let Some(features) = shapes[boundary].features() else { continue };
+            for (slot, feature) in list.particle.iter().zip(&mut list.feature) {
+                let id = particles.id[*slot as usize] as usize;
+                let by = less(went[boundary], less(cell.edges_away[id], away[id]));
+                if by != [0; 3] {
+                    *feature = features.beside(*feature, by).unwrap_or(*feature);
+                }
+            }
+        }
     }
 
     /// Takes leaning edges back by whole ones.
@@ -150,7 +177,7 @@ pub(crate) fn whereabouts(cell: &CellState, particles: &Particles) -> Vec<[i64; 
 
 /// The difference of two counts.
 fn less(a: [i64; 3], b: [i64; 3]) -> [i64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+    [0, 1, 2].map(|edge| a[edge].saturating_sub(b[edge]))
 }
 
 /// Two particles by their indices, and by how many edges what is met of the first is further away than of the second.
@@ -290,7 +317,7 @@ impl Lists {
 
     /// Writes the new rows into the lists. Contacts whose image is not there any more are out of reach.
     fn rewrite(&self, state: &mut State, cell: &CellState, row: &[u32]) {
-        let own = row.len() as u32;
+        let own = (state.particles.len() - cell.originals.len()) as u32;
         let slots = |pair: &Pair| {
             let mut slots = pair.ids.map(|id| row[id as usize]);
             if let Some((place, image)) = pair.image(cell, row) {

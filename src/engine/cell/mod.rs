@@ -13,6 +13,7 @@
 
 mod deformation;
 pub(crate) mod images;
+pub(crate) mod near;
 mod servo;
 mod stress;
 
@@ -33,6 +34,9 @@ use images::Images;
 
 /// Strain in one time step that nobody can mean.
 const LARGEST_STEP: f64 = 0.05;
+
+/// The strain of an automatic time step over that, at most.
+const NEAR_LARGEST: f64 = 0.9;
 
 /// The cell of a scene.
 pub(crate) struct Cell {
@@ -311,6 +315,12 @@ impl Cell {
         let near = 2.0 * self.reach + state.neighbours.skin;
         let norm = |parts: &[f64]| parts.iter().map(|part| part * part).sum::<f64>().sqrt();
         near * norm(cell.gradient.as_flattened()).max(norm(&cell.rate))
+    }
+
+    /// The time step in which no strain changes by too much, as fast as they are about to; infinite where none does \[s\].
+    pub(crate) fn longest_step(&self, state: &State) -> f64 {
+        let fastest = state.cell.iter().flat_map(|cell| cell.rate).map(f64::abs).sum::<f64>();
+        NEAR_LARGEST * LARGEST_STEP / fastest
     }
 }
 

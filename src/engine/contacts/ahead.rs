@@ -96,6 +96,8 @@ pub(crate) struct Meeting {
     pub materials: (u32, Option<u32>),
     /// What their law sees as they begin to touch, but for the pair constant.
     pub contact: Contact,
+    /// Mass that the pair constant is made of: at a surface that of the particle, even where forces move it \[kg\].
+    pub mass: f64,
     /// Kinetic energy that the contact takes up \[J\].
     pub energy: f64,
 }
@@ -121,6 +123,8 @@ pub(crate) struct SearchLimits {
     pub faster: f64,
     /// Largest speed that each boundary has or is about to get, of its particles \[m/s\].
     pub boundaries: Vec<f64>,
+    /// Which boundaries forces move: these may turn round and come back.
+    pub moved: Vec<bool>,
     /// Largest speed at which a cell that is deformed brings neighbours towards each other \[m/s\].
     pub streaming: f64,
     /// The time steps in which bonds to be made count; none where no bond to come does.
@@ -157,20 +161,33 @@ impl SearchLimits {
     ) -> Option<Contact> {
         let [i, j] = slots.map(|slot| particles.velocity[slot as usize][3]);
         let boundary = slots.map(|slot| self.of_boundary(particles, slot));
-        self.deepest(law, row, contact, i.max(j), boundary[0] + boundary[1] + self.streaming)
+        let away = |slot: u32, normal: Vector| {
+            let group = particles.group(slot as usize).filter(|group| self.moves(*group as u32));
+            group.map_or(0.0, |_| Vector::from(particles.velocity[slot as usize]).dot(normal).max(0.0))
+        };
+        let away = away(slots[0], contact.normal) + away(slots[1], contact.normal * -1.0);
+        let back = Contact { normal_velocity: contact.normal_velocity - 2.0 * away, ..*contact };
+        self.deepest(law, row, &back, i.max(j), boundary[0] + boundary[1] + self.streaming)
     }
 
-    /// The contact of a particle with a boundary as deep as it may get, if it may.
+    /// Whether forces move a boundary.
+    pub(crate) fn moves(&self, boundary: u32) -> bool {
+        self.moved.get(boundary as usize).is_some_and(|moved| *moved)
+    }
+
+    /// The contact of a particle of this velocity \[m/s\] with a boundary of this speed \[m/s\] as deep as it may get, if it may.
     pub(crate) fn at_boundary(
         &self,
-        law: &Law,
-        row: &[f64],
-        contact: &Contact,
-        now: f64,
+        (law, row, contact): (&Law, &[f64], &Contact),
+        (particle, now): (Vector, f64),
         boundary: u32,
     ) -> Option<Contact> {
         let speed = self.boundaries.get(boundary as usize).map_or(0.0, |speed| (speed - now).max(0.0));
-        self.deepest(law, row, contact, contact.mass, speed)
+        // As fast as the surface goes away, its springs or what it strikes may send it back.
+        let away =
+            if self.moves(boundary) { (contact.normal_velocity - particle.dot(contact.normal)).max(0.0) } else { 0.0 };
+        let back = Contact { normal_velocity: contact.normal_velocity - 2.0 * away, ..*contact };
+        self.deepest(law, row, &back, contact.mass, speed)
     }
 
     /// A contact or near pair, its overlap negative where it has a gap, as deep as it may get; damped as at the turn.

@@ -108,8 +108,8 @@ impl CoefficientTable {
             return None;
         }
         let row = self.row(a, b);
-        let Contact { radius, mass, .. } = meeting.contact;
-        let contact = Contact { pair_constant: law.pair_constant(row, radius, mass), ..meeting.contact };
+        let radius = meeting.contact.radius;
+        let contact = Contact { pair_constant: law.pair_constant(row, radius, meeting.mass), ..meeting.contact };
         let overlap = overlap_of(law, row, &contact, meeting.energy, radius).max(LEAST_OVERLAP * radius);
         Some(frames(law, row, &Contact { overlap, ..contact }))
     }

@@ -1,7 +1,7 @@
 //! Whether particles of a saved state can be those of a scene in which particles come and go.
 
 use crate::engine::state::exchange::Exchange;
-use crate::engine::state::{Particles, StateFault, demand};
+use crate::engine::state::{IMAGE, Particles, StateFault, demand};
 use crate::scene::{ParticleShape, Scene};
 
 /// Looks through particles that stand for themselves: the scene's own are as it has them, the others as an insertion makes them,
@@ -54,6 +54,10 @@ fn is_as_made(scene: &Scene, particles: &Particles, slot: usize, owner: Option<u
     let same = |shape: ParticleShape, expected: f64| {
         mass.to_bits() == expected.to_bits() && inertia.to_bits() == shape.inertia(expected, radius).to_bits()
     };
+    if particles.owner[slot] == IMAGE {
+        // Its particle has been looked at.
+        return true;
+    }
     let is_of_clump = particles.owner[slot] as usize > scene.boundaries.len();
     match owner {
         Some(OF_CLUMP) => return is_of_clump,

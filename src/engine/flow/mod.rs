@@ -126,7 +126,7 @@ impl Flow {
                 book_turning(&mut net, 0.5 * spin[3] * Vector::from(spin).dot(spin.into()));
                 load = Vector::from(fields.loads(velocity[3], id));
             }
-            net.potential += load.dot(particles.position[slot].into());
+            net.potential += load.dot(state.unwrapped(slot).into());
             for axis in 0..3 {
                 net.applied[axis] -= applied[axis];
                 net.applied_time[axis] -= applied[axis] * since;
@@ -139,7 +139,7 @@ impl Flow {
             let (spin, momentum) = (clumps.angular_velocity[clump], clumps.angular_momentum[clump]);
             book_turning(&mut net, 0.5 * Vector::from(spin).dot(momentum.into()));
             let weight = Vector::from(fields.weight(clumps.velocity[clump][3]));
-            net.potential += weight.dot(clumps.position[clump].into());
+            net.potential += weight.dot(state.unwrapped_clump(clump).into());
         }
         if let Some(exchange) = &mut state.exchange {
             exchange.net.add(&net);

@@ -1,7 +1,9 @@
 //! Where there is no room for a new sphere: other spheres and surfaces.
 
 use crate::base::geometry::Frame;
+use crate::base::geometry::Lattice;
 use crate::base::number::Vector;
+use crate::engine::cell::near::{self, Place};
 use crate::engine::neighbours::sorted;
 use crate::engine::state::State;
 use crate::laws::surface::{Deforming, Feet};
@@ -14,6 +16,10 @@ const MOST_CELLS: usize = 64;
 pub(super) struct Occupied<'a> {
     /// The scene.
     scene: &'a Scene,
+    /// The periodic cell, if there is one.
+    lattice: Option<Lattice>,
+    /// The box, as spheres see it that are no further than the largest two reach \[m\].
+    place: (Place, f64),
     /// Where each of its boundaries stands.
     frames: Vec<Frame>,
     /// Meshes whose nodes have moved, as they stand.
@@ -45,7 +51,7 @@ impl<'a> Occupied<'a> {
             edges[axis] = (wide / counts[axis] as f64).max(reach);
         }
         let frame = |(boundary, moved): (&crate::scene::Boundary, &crate::engine::state::BoundaryState)| {
-            Frame::of(boundary.reference.into(), moved.displacement.into(), moved.orientation.0)
+            Frame::of(boundary.reference.into(), moved.shift().into(), moved.orientation.0)
         };
         let deformed = |boundary: usize| {
             let nodes = state.nodes_of(boundary)?;
@@ -53,6 +59,8 @@ impl<'a> Occupied<'a> {
         };
         let mut occupied = Self {
             scene,
+            lattice: near::lattice(scene, state),
+            place: (Place::of(scene, state, [low, high]), reach),
             deformed: (0..scene.boundaries.len()).map(deformed).collect(),
             frames: scene.boundaries.iter().zip(&state.boundaries).map(frame).collect(),
             low,
@@ -62,20 +70,21 @@ impl<'a> Occupied<'a> {
             parts: Vec::new(),
             feet: Feet::default(),
         };
-        let near = |row: &&[f64; 4]| (0..3).all(|axis| (low[axis] - reach..=high[axis] + reach).contains(&row[axis]));
-        state.particles.position.iter().filter(near).for_each(|row| occupied.add(*row));
+        near::particles(state).for_each(|slot| occupied.add(state.particles.position[slot]));
         occupied
     }
 
-    /// The cell of a coordinate along an axis; what is beyond the box belongs to the last cell before.
-    fn cell(&self, axis: usize, coordinate: f64) -> usize {
-        (((coordinate - self.low[axis]) / self.edges[axis]).max(0.0) as usize).min(self.counts[axis] - 1)
-    }
-
-    /// Adds a sphere.
+    /// Adds a sphere and its images, where they are near the box.
     pub(super) fn add(&mut self, sphere: [f64; 4]) {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.cell(axis, sphere[axis]));
-        self.cells[(x * self.counts[1] + y) * self.counts[2] + z].push(sphere);
+        let Self { place: (place, reach), low, edges, counts, cells, .. } = self;
+        let high = [0, 1, 2].map(|axis| low[axis] + counts[axis] as f64 * edges[axis]);
+        place.meets(sphere.into(), *reach, |centre| {
+            let centre = centre.row_with(sphere[3]);
+            if (0..3).all(|axis| (low[axis] - *reach..=high[axis] + *reach).contains(&centre[axis])) {
+                let [x, y, z] = [0, 1, 2].map(|axis| cell(centre[axis], (low[axis], edges[axis], counts[axis])));
+                cells[(x * counts[1] + y) * counts[2] + z].push(centre);
+            }
+        });
     }
 
     /// Whether a sphere would overlap another or a surface.
@@ -86,7 +95,7 @@ impl<'a> Occupied<'a> {
     /// Whether it would overlap another.
     fn meets_sphere(&self, sphere: [f64; 4]) -> bool {
         let around = |axis: usize| {
-            let cell = self.cell(axis, sphere[axis]);
+            let cell = cell(sphere[axis], (self.low[axis], self.edges[axis], self.counts[axis]));
             cell.saturating_sub(1)..(cell + 2).min(self.counts[axis])
         };
         let overlaps = |other: &[f64; 4]| {
@@ -107,7 +116,9 @@ impl<'a> Occupied<'a> {
             let features = boundary.shape.features().filter(|_| boundary.shape.material().is_some());
             let Some(features) = features else { continue };
             let features = deformed.as_ref().map_or(features, Deforming::features);
-            let centre = frame.inside(sphere.into());
+            let place = Vector::from(sphere).to_array();
+            let place = self.lattice.map_or(place, |lattice| lattice.brought_back(place));
+            let centre = frame.inside(place.into());
             self.parts.clear();
             features.near(centre, sphere[3], &mut self.parts);
             if self.parts.is_empty() {
@@ -121,4 +132,9 @@ impl<'a> Occupied<'a> {
         }
         false
     }
+}
+
+/// The cell of a coordinate along an axis where cells begin at `low` \[m\]; what is beyond the box belongs to the last cell before.
+fn cell(coordinate: f64, (low, edge, count): (f64, f64, usize)) -> usize {
+    (((coordinate - low) / edge).max(0.0) as usize).min(count - 1)
 }

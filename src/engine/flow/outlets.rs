@@ -3,6 +3,7 @@
 use super::passed::PassedParticle;
 use super::removes_outside;
 use crate::base::number::Vector;
+use crate::engine::cell::near::{self, Place};
 use crate::engine::run_error::RunError;
 use crate::engine::state::State;
 use crate::engine::state::exchange::{Exchange, ParticleCount};
@@ -52,13 +53,22 @@ pub(super) fn find(
     let first = scene.outlets.len() + 1;
     let mut tallies = vec![ParticleCount::default(); first + scene.boundaries.len()];
     let shifts: Vec<Vector> = scene.outlets.iter().map(|outlet| shift(scene, state, outlet.place)).collect();
+    let places: Vec<Option<Place>> =
+        scene.outlets.iter().zip(&shifts).map(|(outlet, shift)| place(scene, state, (outlet.place, *shift))).collect();
     let place_of = |centre: Vector| {
-        let taken = |(place, shift): (&crate::scene::Outlet, &Vector)| takes(scene, place.place, centre - *shift);
-        let by = scene.outlets.iter().zip(&shifts).position(taken);
+        let by = scene.outlets.iter().zip(&shifts).zip(&places).position(|((outlet, shift), place)| {
+            let mut taken = false;
+            let mut look = |centre: Vector| taken |= takes(scene, outlet.place, centre - *shift);
+            match place {
+                Some(place) => place.meets(centre, 0.0, look),
+                None => look(centre),
+            }
+            taken
+        });
         by.or_else(|| outside.filter(|corners| is_outside(centre, corners)).map(|_| scene.outlets.len()))
     };
     let through = |slot: usize| passed.iter().find(|it| it.slot == slot).map(|it| first + it.boundary);
-    for slot in (0..goes.len()).filter(|&slot| state.clump(slot).is_none()) {
+    for slot in near::particles(state).filter(|&slot| state.clump(slot).is_none()) {
         let by = place_of(particles.position[slot].into()).or_else(|| through(slot));
         let Some(by) = by else { continue };
         if let Some(group) = particles.group(slot) {
@@ -101,6 +111,13 @@ fn shift(scene: &Scene, state: &State, place: OutletPlace) -> Vector {
         OutletPlace::Behind(boundary) => Some(boundary),
     };
     follows.map_or(Vector::zero(), |boundary| state.boundaries[boundary.index()].displacement.into())
+}
+
+/// Where particles meet an outlet that is a region, displaced by so much \[m\].
+fn place(scene: &Scene, state: &State, (place, shift): (OutletPlace, Vector)) -> Option<Place> {
+    let OutletPlace::Region(region) = place else { return None };
+    let corners = scene.regions[region].shape.bounds().map(|corner| (Vector::from(corner) + shift).to_array());
+    Some(Place::of(scene, state, corners))
 }
 
 /// Whether an outlet takes away what has its centre there \[m\].

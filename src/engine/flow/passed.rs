@@ -3,7 +3,7 @@
 use crate::base::number::Vector;
 use crate::engine::boundaries::passing::{MovedParticles, Passed, Passing};
 use crate::engine::neighbours::sorted;
-use crate::engine::state::State;
+use crate::engine::state::{IMAGE, State};
 use crate::laws::surface::Deforming;
 use crate::scene::{Outside, Scene};
 
@@ -50,7 +50,8 @@ pub(super) fn find(scene: &Scene, state: &State, passing: &Passing, step: f64) -
         }
         let material = boundary.shape.material().map_or(0, |material| material.0);
         let touches = |slot: &usize| {
-            moved.owner[*slot] != index as u32 + 1 && passing.meet(state.particles.material[*slot], material)
+            ![index as u32 + 1, IMAGE].contains(&moved.owner[*slot])
+                && passing.meet(state.particles.material[*slot], material)
         };
         (0..moved.position.len()).filter(touches).for_each(&mut look);
     }

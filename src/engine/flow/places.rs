@@ -57,7 +57,7 @@ pub(super) fn feed(
                 let number = number(exchange, time)?;
                 let inertia = ParticleShape::Sphere.inertia(velocity[3], position[3]);
                 let sphere = InsertedParticle { position, velocity, inertia, material, number };
-                state.particles.add(&sphere, 0, turning);
+                state.add_particle(&sphere, 0, turning);
                 (position, velocity, None)
             }
             Newcomer::Clump(clump) => {

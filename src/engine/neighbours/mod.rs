@@ -127,6 +127,11 @@ impl Search {
         self.reach
     }
 
+    /// Whether lists, and images with them, are made anew where motion asks for it.
+    pub(crate) fn keeps_lists(&self) -> bool {
+        self.touching
+    }
+
     /// Radius of the smallest particle \[m\].
     pub(crate) fn smallest_radius(&self) -> f64 {
         self.smallest
@@ -199,7 +204,8 @@ impl Search {
             self.sizes.count(&state.particles);
         }
         if let Some(images) = &self.images {
-            images.renew(state, skin);
+            let shapes: Vec<&Shape> = self.boundaries.iter().map(|(shape, ..)| shape).collect();
+            images.renew(state, &shapes, skin);
         }
         let grid = Grid::around(&state.particles, &self.sizes, skin, bonds::longest(state), context);
         self.order.find(&grid, &self.sizes, &state.particles, context);
@@ -267,7 +273,7 @@ impl Search {
     fn extent(&self, state: &State, boundary: usize) -> f64 {
         let (shape, reference, turns) = &self.boundaries[boundary];
         let Some(features) = shape.features().filter(|_| *turns) else { return 0.0 };
-        let pivot = *reference + state.boundaries[boundary].displacement.into();
+        let pivot = *reference + state.boundaries[boundary].shift().into();
         let particles = surfaces::farthest_from(&state.particles, pivot) + 2.0 * state.neighbours.skin;
         features.extent(*reference).min(particles)
     }
@@ -280,7 +286,7 @@ impl Search {
         if let (None, Some(features), Some(material)) = (plane, shape.features(), shape.material()) {
             let (boundary, skin) = (list.boundary, state.neighbours.skin + self.reach);
             let moved = &state.boundaries[boundary as usize];
-            let frame = Frame::of(*reference, moved.displacement.into(), moved.orientation.0);
+            let frame = Frame::of(*reference, moved.shift().into(), moved.orientation.0);
             let nodes = state.nodes.iter().find(|nodes| nodes.boundary == boundary);
             let deformed = nodes.and_then(|nodes| Some(sorted(shape.deforming()?, nodes)));
             let features = deformed.as_ref().map_or(features, Deforming::features);
@@ -322,7 +328,7 @@ fn laws(scene: &Scene) -> Laws {
         .map(|entry| governing.rows()[entry]);
     let first = met.next().flatten();
     let only = first.filter(|_| !groups && met.all(|law| law == first));
-    Laws { governing, only, count: scene.contacts.len() }
+    Laws { governing, only, count: scene.contacts.len(), groups: scene.boundaries.len() as u32 }
 }
 
 /// How far the particle that has moved most since the lists were made is from where it was \[m\].

@@ -19,6 +19,8 @@ pub(crate) struct Laws {
     pub only: Option<u32>,
     /// Number of laws.
     pub count: usize,
+    /// The last owner of particles that is a boundary with its group.
+    pub groups: u32,
 }
 
 impl Laws {
@@ -285,7 +287,10 @@ impl FoundPairs {
         let mut kept = before;
         for pair in before..self.count {
             let j = self.second[pair];
-            let together = owner[i as usize] != 0 && owner[i as usize] == owner[j as usize];
+            // Two images make no pair, and images of a group are one body with it.
+            let [one, other] = [i, j].map(|slot| owner[slot as usize]);
+            let of = |slot: u32| owner[look.particles.original(slot) as usize];
+            let together = one != 0 && other != 0 && (one == other || of(i) <= look.laws.groups && of(i) == of(j));
             let law = look.laws.between(material[i as usize], material[j as usize]);
             if let Some(law) = law.filter(|_| !together) {
                 self.first[kept] = i;

@@ -5,7 +5,7 @@ use super::pairs::Laws;
 use crate::base::geometry::Frame;
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::state::{NearParts, Particles, WallContacts};
+use crate::engine::state::{IMAGE, NearParts, Particles, WallContacts};
 use crate::laws::surface::{Features, NO_PLANE};
 
 /// A surface of the scene that is touched feature by feature.
@@ -32,7 +32,7 @@ pub(crate) fn replace(
     let pieces = context.collect(particles.len().div_ceil(CHUNK), |piece| {
         let mut found = NearParts::default();
         for slot in piece * CHUNK..((piece + 1) * CHUNK).min(particles.len()) {
-            let foreign = particles.owner[slot] != near.boundary + 1;
+            let foreign = ![near.boundary + 1, IMAGE].contains(&particles.owner[slot]);
             if !foreign || laws.between(particles.material[slot], near.material) != Some(list.law) {
                 continue;
             }

@@ -203,7 +203,7 @@ impl Simulation {
     fn met_by(&self, boundary: BoundaryIndex) -> CurrentContact {
         let (state, place) = (&self.state, boundary.index());
         let particles = &state.particles;
-        let carried = |slot: u32| particles.owner[slot as usize] as usize == place + 1;
+        let carried = |slot: u32| particles.owner[particles.original(slot) as usize] as usize == place + 1;
         let pivot = Vector::from(state.boundaries[place].pivot);
         let mut arm = self.bodies[place].as_ref().map_or(0.0, |body| body.farthest);
         let mut overlaps = Vec::new();

@@ -37,9 +37,13 @@ impl Simulation {
         let booked = self.state.ledger.is_some() || self.state.losses.is_some();
         let held = |simulation: &Self| (simulation.elastic_energy(), simulation.held());
         leaving.put_back(&mut self.state);
+        if let Some(cell) = &self.cell {
+            cell.place_images(&mut self.state);
+        }
         let before = booked.then(|| held(self));
         let (passes, state) = (&self.passes, &mut self.state);
-        let given: f64 = passes.iter().map(|pass| pass.let_go(state, &leaving.goes, step)).sum();
+        let goes = state.with_all(&leaving.goes);
+        let given: f64 = passes.iter().map(|pass| pass.let_go(state, &goes, step)).sum();
         flow.remove(&self.scene, &self.fields, &mut self.state, leaving, step);
         if let Some((elastic, StoredEnergy(before))) = before {
             let (left, StoredEnergy(after)) = held(self);

@@ -119,7 +119,8 @@ impl Simulation {
             Some(body.acceleration(moved, body.farthest))
         });
         let acceleration = free.fold(fields.acceleration(&state.particles), f64::max);
-        2.0 * way / (speed + (speed * speed + 2.0 * acceleration * way).sqrt())
+        let strained = self.cell.as_ref().map_or(f64::INFINITY, |cell| cell.longest_step(state));
+        strained.min(2.0 * way / (speed + (speed * speed + 2.0 * acceleration * way).sqrt()))
     }
 
     /// Whether what moves fastest goes too far in an automatic time step of this length \[s\].

@@ -57,7 +57,9 @@ impl Simulation {
             return;
         }
         let mut made = false;
+        // Images that are not made anew with lists of contacts are where nobody has looked.
         if self.cell.is_some()
+            && !self.search.keeps_lists()
             && moment.number > 0
             && self.scene.bonds.iter().any(|bond| bond.keys.create.bonds_near_pairs(moment))
         {

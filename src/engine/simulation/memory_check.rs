@@ -51,7 +51,7 @@ impl Simulation {
             let features = boundary.shape.features().filter(|_| !self.scene.contacts.is_empty());
             let most = features.map_or(0, |features| features.counts()[0] * particles.len());
             let Some(features) = features.filter(|_| most as f64 * PART > free as f64) else { continue };
-            let frame = Frame::of(boundary.reference.into(), stands.displacement.into(), stands.orientation.0);
+            let frame = Frame::of(boundary.reference.into(), stands.shift().into(), stands.orientation.0);
             let parts = pair_estimate::parts(particles, features, (&frame, skin));
             let why = format!("parts of [boundary.{}] near particles with a [run] skin of {skin:e} m", boundary.name);
             refuse((parts, 1.0), PART, why)?;

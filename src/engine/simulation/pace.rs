@@ -39,9 +39,8 @@ impl Simulation {
             Step::Given(_) => None,
             Step::Automatic { safety } => Some(safety),
             Step::Following => {
-                let share = self.state.pace.share;
-                let allowed = self.scene.run.accuracy.error() / share;
-                let part = if share > 0.0 { self.errors.longest(allowed) } else { LONGEST_PART };
+                // Without impacts the longest there is.
+                let part = self.errors.longest(self.scene.run.accuracy.error() / self.state.pace.share);
                 Some(if self.serves { part.min(SERVED_PART) } else { part })
             }
         }
@@ -75,6 +74,11 @@ impl Simulation {
             });
         }
         impacts
+    }
+
+    /// The longest fraction of the stable step that the automatic one takes.
+    pub(crate) fn longest_part(&self) -> f64 {
+        self.errors.longest(f64::INFINITY)
     }
 
     /// The fraction of the stable step that impacts of two bodies allow where nothing else is in contact.

@@ -1,7 +1,7 @@
 //! How far speeds, contacts and bonds may change until the stable time step is computed again.
 
 use super::Simulation;
-use crate::engine::boundaries::course;
+use crate::engine::boundaries::{RigidBody, course};
 use crate::engine::contacts::{FASTER, SearchLimits};
 use crate::engine::stability;
 use crate::laws::bond::creation::Window;
@@ -102,7 +102,8 @@ impl Simulation {
             to: clock.time + STEPS_BETWEEN_LOOKS * step,
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
-        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, streaming, window };
+        let moved = self.bodies.iter().map(|body| body.as_ref().is_some_and(RigidBody::is_free)).collect();
+        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, moved, streaming, window };
         LookAhead { ahead, speed, fastest, strained, is_dense }
     }
 }

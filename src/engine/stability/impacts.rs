@@ -119,7 +119,8 @@ impl System<'_> {
                 let closing = closing(a.radius.min(b.radius));
                 let energy = 0.5 * closing * closing / (a.per_striking_mass + b.per_striking_mass);
                 let contact = contact_of(a, Some(b));
-                let meeting = Meeting { materials: (a.material, Some(b.material)), contact, energy };
+                let meeting =
+                    Meeting { materials: (a.material, Some(b.material)), contact, mass: contact.mass, energy };
                 let second = Some(b.particle).filter(|second| *second != a.particle);
                 for pass in self.passes {
                     pass.impacts(self.state, &meeting, &mut |_, parts| {
@@ -134,7 +135,7 @@ impl System<'_> {
             let materials = (a.material, None);
             let times = if a.is_sphere { AT_SURFACES } else { 1.0 };
             let energy = 0.5 * closing(a.radius) * closing(a.radius) / a.per_striking_mass;
-            let standing = Meeting { materials, contact, energy };
+            let standing = Meeting { materials, contact, mass: a.mass, energy };
             for pass in self.passes {
                 pass.impacts(self.state, &standing, &mut |boundary, parts| {
                     if boundary.is_some_and(|boundary| surfaces[boundary as usize].is_none()) {
@@ -151,7 +152,7 @@ impl System<'_> {
                 let mass = 2.0 / (a.shift + surface.answers[0]);
                 let (radius, section_radius) = (2.0 * contact.radius, 2.0 * contact.section_radius);
                 let contact = Contact { mass, radius, section_radius, ..contact };
-                let meeting = Meeting { materials, contact, energy: 0.5 * mass * closing * closing };
+                let meeting = Meeting { materials, contact, mass: a.mass, energy: 0.5 * mass * closing * closing };
                 for pass in self.passes {
                     pass.impacts(self.state, &meeting, &mut |boundary, parts| {
                         if boundary == Some(index as u32) {

@@ -21,6 +21,8 @@ pub struct BoundaryState {
     pub pivot: [f64; 3],
     /// Where it stood before the present time step.
     pub before: Stand,
+    /// By whole edges of a periodic cell: how far its surface is before where it has come to \[m\].
+    pub brought_back: [f64; 3],
     /// Where the present communication step began: along x, y, z \[m\] and about them \[rad\]; of axes that take a force, the force
     /// that was given then \[N, N m\].
     pub start: [f64; 6],
@@ -77,6 +79,16 @@ impl BoundaryState {
     /// Where it stands.
     pub(crate) fn stand(&self) -> Stand {
         Stand { displacement: self.displacement, orientation: self.orientation }
+    }
+
+    /// How far from its place at time 0 its surface stands; in a periodic cell, that of its copies which is nearest to it \[m\].
+    pub(crate) fn shift(&self) -> [f64; 3] {
+        self.shift_at(&self.stand())
+    }
+
+    /// The same where the boundary stood there.
+    pub(crate) fn shift_at(&self, stand: &Stand) -> [f64; 3] {
+        [0, 1, 2].map(|axis| stand.displacement[axis] - self.brought_back[axis])
     }
 
     /// Rates of force and moment after a time step of this length \[s\], 0 before the first \[N/s, N m/s\].

@@ -2,7 +2,7 @@
 
 use super::in_place::clone_in_place;
 use super::{Row, plain};
-use crate::base::geometry::Lattice;
+use crate::base::geometry::lattice::displacement;
 use serde::{Deserialize, Serialize};
 
 /// A number for each component of the deformation, in the order of [`STRAINS`](crate::base::geometry::lattice::STRAINS).
@@ -109,9 +109,19 @@ impl CellState {
         self.gradient.map(|[along_x, along_y, along_z]| along_x * x + along_y * y + along_z * z)
     }
 
+    /// A particle that comes, by its index, is where it is.
+    pub(crate) fn begin_at(&mut self, index: u32) {
+        let index = index as usize;
+        if index == self.edges_away.len() {
+            self.edges_away.push([0; 3]);
+        } else {
+            self.edges_away[index] = [0; 3];
+        }
+    }
+
     /// By how much a particle, by its index, has been brought back into the cell \[m\].
     pub(crate) fn displacement(&self, index: u32) -> [f64; 3] {
-        Lattice { edges: self.edges, ..Lattice::default() }.displacement(self.edges_away[index as usize])
+        displacement(&self.edges, self.edges_away[index as usize])
     }
 
     /// Whether the cell is being deformed.

@@ -629,7 +629,7 @@ impl BoundaryState {
         let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
         let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
         let Self { target_acceleration, acceleration, first_moment, force_slope, .. } = self;
-        let Self { force_before, moment_before, before, .. } = self;
+        let Self { force_before, moment_before, before, brought_back, .. } = self;
         let triples = [
             displacement,
             velocity,
@@ -651,6 +651,7 @@ impl BoundaryState {
             force_before,
             moment_before,
             &before.displacement,
+            brought_back,
             &inertial.angular_momentum,
             &inertial.load,
             &inertial.couple,

@@ -178,7 +178,7 @@ impl State {
         let owner = (self.boundaries.len() + self.clumps.len()) as u32 + 1;
         self.clumps.add(rows, number);
         for sphere in spheres {
-            let index = self.particles.add(sphere, owner, turning);
+            let index = self.add_particle(sphere, owner, turning);
             self.clumps.add_spheres([index]);
         }
     }

@@ -105,7 +105,7 @@ impl Particles {
     /// Removes particles (slots).
     fn remove(&mut self, goes: &[bool]) {
         let own = self.own();
-        for slot in (0..goes.len()).filter(|&slot| goes[slot]) {
+        for slot in (0..goes.len()).filter(|&slot| goes[slot] && self.owner[slot] != IMAGE) {
             let index = self.id[slot] as usize;
             self.slot[index] = GONE;
             if index >= own {
@@ -166,9 +166,17 @@ fn shorten(ends: &mut [u32], stays: &[bool]) {
 }
 
 impl State {
-    /// Removes particles (slots), all spheres of their clumps, their images in a periodic cell, and their entries in every list. The caller makes anew what depends on
-    /// positions.
-    pub(crate) fn remove(&mut self, goes: &[bool]) {
+    /// Adds a particle of this owner where it is. `turning`: whether particles have an orientation. Returns its index.
+    pub(crate) fn add_particle(&mut self, newcomer: &InsertedParticle, owner: u32, turning: bool) -> u32 {
+        let index = self.particles.add(newcomer, owner, turning);
+        if let Some(cell) = &mut self.cell {
+            cell.begin_at(index);
+        }
+        index
+    }
+
+    /// What goes in all where of the particles these go (slots): all spheres of their clumps, and images in a periodic cell.
+    pub(crate) fn with_all(&self, goes: &[bool]) -> Vec<bool> {
         let mut goes = goes.to_vec();
         for clump in 0..self.clumps.len() {
             let slots =
@@ -177,12 +185,16 @@ impl State {
                 slots.for_each(|slot| goes[slot] = true);
             }
         }
-        if let Some(cell) = &self.cell {
-            for (&image, &original) in cell.images.iter().zip(&cell.originals) {
-                goes[image as usize] |= goes[original as usize];
-            }
+        for (&image, &original) in self.cell.iter().flat_map(|cell| cell.images.iter().zip(&cell.originals)) {
+            goes[image as usize] |= goes[original as usize];
         }
-        let goes = &goes[..];
+        goes
+    }
+
+    /// Removes particles (slots), all spheres of their clumps, their images in a periodic cell, and their entries in every list. The caller
+    /// makes anew what depends on positions.
+    pub(crate) fn remove(&mut self, goes: &[bool]) {
+        let goes = &self.with_all(goes)[..];
         let (mut stay_before, mut count) = (Vec::with_capacity(goes.len() + 1), 0);
         for goes in goes {
             stay_before.push(count);

@@ -59,6 +59,8 @@ pub(crate) struct StepError {
     pub(crate) restitution: f64,
     /// What is dissipated too much, in the mean over them, over what is dissipated with short steps; 0 where nothing is.
     pub(crate) dissipation: f64,
+    /// What is left of the energy, in the mean over them.
+    pub(crate) kept: f64,
 }
 
 /// An impact to be tried.
@@ -149,15 +151,15 @@ impl Impact {
         }
         let lost = 1.0 - right * right;
         let dissipation = if lost > LEAST_LOST { (1.0 - kept) / lost - 1.0 } else { 0.0 };
-        StepError { restitution: MISSED * most, dissipation }
+        StepError { restitution: MISSED * most, dissipation, kept }
     }
 }
 
 /// The largest error of restitution over the time step, of several impacts: what their own code makes of them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ErrorCurve {
-    /// Parts of the stable step, ascending up to [`LONGEST_PART`], and the largest error of any that is not longer; empty where nothing
-    /// can touch.
+    /// Parts of the stable step, ascending up to [`LONGEST_PART`] or to the longest with which no impact gains energy, and the largest
+    /// error of any that is not longer; empty where nothing can touch.
     points: Vec<[f64; 2]>,
 }
 
@@ -168,10 +170,20 @@ impl ErrorCurve {
         let (mut points, mut part, mut within) = (Vec::new(), LONGEST_PART, 0);
         // One small error may be that of an accident.
         while !impacts.is_empty() && part >= SHORTEST_PART && within < 2 {
-            let errors = impacts.iter().zip(&right).map(|(impact, right)| impact.error(part, *right).restitution);
-            let error = errors.fold(0.0, f64::max);
+            let (mut error, mut gains) = (0.0_f64, false);
+            for (impact, right) in impacts.iter().zip(&right) {
+                let found = impact.error(part, *right);
+                error = error.max(found.restitution);
+                // What changes restitution by this changes the energy by twice that.
+                gains |= found.kept > (right * right).max(1.0) + 2.0 * least;
+            }
             within = if error <= least { within + 1 } else { 0 };
-            points.push([part, error]);
+            if gains {
+                // Bodies that have little energy would gain more in each impact.
+                points.clear();
+            } else {
+                points.push([part, error]);
+            }
             part *= NEXT;
         }
         points.reverse();
@@ -279,6 +291,25 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn no_longer_step_is_taken_than_one_with_which_impacts_gain_no_energy() {
+        for (name, restitution, longest) in
+            [("hooke", 0.8, LONGEST_PART), ("hertz", 1.0, LONGEST_PART), ("hooke", 1.0, 0.6)]
+        {
+            let (law, row) = case(name, restitution, Scheme::PredictedNormal);
+            let impact = Impact::of(&law, &row, [1e-3, 1e-5]).unwrap();
+            let curve = ErrorCurve::of(std::slice::from_ref(&impact), 1e-2);
+            let part = curve.longest(f64::INFINITY);
+            assert!(part <= longest && part > 0.5 * longest, "{name}, e = {restitution}: {part}");
+            let kept = impact.error(part, restitution).kept;
+            assert!(kept <= 1.02, "{name}, e = {restitution}: {kept} at {part}");
+        }
+        // A spring without a dashpot in steps of ω Δt = 1.6, that are long enough to leave it after a single one with up to 1.56 v.
+        let (law, row) = case("hooke", 1.0, Scheme::PredictedNormal);
+        let kept = Impact::of(&law, &row, [1e-3, 1e-5]).unwrap().error(0.8, 1.0).kept;
+        assert!(kept > 1.05, "{kept}");
     }
 
     #[test]

@@ -69,6 +69,8 @@ pub struct Feet {
     pub behind: bool,
     /// Room for who finds them.
     pub(crate) room: [Vec<u32>; 2],
+    /// Room for the parts and the feet of one of several copies.
+    pub(super) of_one: Option<Box<(Vec<u32>, Feet)>>,
 }
 
 impl Feet {
@@ -162,6 +164,11 @@ pub trait Features: Debug + Send + Sync {
 
     /// The largest distance of its points from a point; infinite where it has no end \[m\].
     fn extent(&self, point: Vector) -> f64;
+
+    /// The same feature of the copy that stands by so many edges of a periodic cell beside.
+    fn beside(&self, feature: u32, _by: [i64; 3]) -> Option<u32> {
+        Some(feature)
+    }
 }
 
 /// Whether a sphere with this radius \[m\] touches a surface somewhere on the straight way of its centre \[m\], and at neither end.

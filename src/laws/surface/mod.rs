@@ -6,6 +6,7 @@
 //! moves ([`crate::laws::motion`]).
 
 pub(crate) mod cone;
+mod copies;
 pub mod cylinder;
 pub(crate) mod disc;
 mod facets;
@@ -17,6 +18,7 @@ mod profile;
 pub(crate) mod rectangle;
 pub(crate) mod revolution;
 
+pub use copies::{Copies, Repeated};
 pub use facets::Facets;
 pub use feet::{DEEP, Features, Feet, Foot, NO_PLANE, OnPlanes, SLOW, Saddle, TOGETHER, is_skipped};
 pub use group::{Group, Selection};
@@ -139,6 +141,12 @@ pub trait Surface: Debug + Send + Sync {
     /// The facet that is nearest to a point \[m\].
     fn facet_at(&self, _point: Vector) -> usize {
         0
+    }
+
+    /// What it and its copies in a periodic cell are, none of which is wider than the cell; otherwise what is wrong with them, found
+    /// and expected.
+    fn repeated(&self, _copies: &Copies) -> Result<Repeated, [String; 2]> {
+        Ok(Repeated::Apart)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::facets::{Facets, across};
 use super::feet::{Features, Feet, Foot};
-use super::{Shape, ShapeContext, ShapeKeys, Surface, direction};
+use super::{Copies, Repeated, Shape, ShapeContext, ShapeKeys, Surface, direction};
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Triple};
 use serde::Deserialize;
@@ -71,6 +71,10 @@ impl Surface for Plane {
             facets.add(&[0, 1, 2, 3]);
         }
         Some(facets)
+    }
+
+    fn repeated(&self, _copies: &Copies) -> Result<Repeated, [String; 2]> {
+        Ok(Repeated::Endless)
     }
 }
 

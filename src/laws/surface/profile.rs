@@ -14,16 +14,19 @@
 //! h is δ where the far side is out of touch and on the axis, where the parts of n and n' across it cancel. The energy is
 //! that of h, so the force is continuous and conservative.
 
-use super::Surface;
 use super::cylinder::FAR;
 use super::facets::{Facets, across};
 use super::feet::{Features, Feet, Foot};
+use super::{Copies, Repeated, Surface};
 use crate::base::number::Vector;
 use crate::base::quantity::MaterialIndex;
 use std::f64::consts::TAU;
 
 /// What rounding may take from a square, with room.
 const ROUNDING: f64 = 1.0 + 1e-9;
+
+/// Sine of an angle below which a displacement is along the axis, and share of it by which a surface ends before the next one.
+const ALONG: f64 = 1e-9;
 
 /// Facets around the axis, where the surface is shown.
 const AROUND: usize = 64;
@@ -335,6 +338,34 @@ impl Surface for Revolution {
             }
         }
         Some(facets)
+    }
+
+    fn repeated(&self, copies: &Copies) -> Result<Repeated, [String; 2]> {
+        let [low, high] = self
+            .corners
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [_, z]| [low.min(*z), high.max(*z)]);
+        let is_along = |shift: &&Vector| shift.cross(self.axis).length() <= ALONG * shift.length();
+        let along = copies.shifts[1..].iter().filter(is_along).map(|shift| shift.length());
+        let next = along.fold(f64::INFINITY, f64::min);
+        if next == f64::INFINITY || high - low < next * (1.0 - ALONG) {
+            return Ok(Repeated::Apart);
+        }
+        if !copies.shifts.iter().all(|shift| is_along(&shift)) {
+            let found = "a surface of revolution from face to face, beside copies across its axis".to_owned();
+            return Err([found, "one that ends before the faces, or a mesh".to_owned()]);
+        }
+        let [[a, _], [b, _]] = [self.corners[0], self.corners[self.corners.len() - 1]];
+        if self.corners.len() > 2 || a != b {
+            let found = "a surface of revolution from face to face".to_owned();
+            return Err([found, "a cylinder without caps, one that ends before the faces, or a mesh".to_owned()]);
+        }
+        if high - low < FAR {
+            let ends = [[a, -FAR], [a, FAR]];
+            let endless = Self::of(self.key, self.material, (self.origin, self.axis), &ends);
+            return Ok(Repeated::Joined(super::Shape::of(endless)));
+        }
+        Ok(Repeated::Endless)
     }
 
     fn facet_at(&self, point: Vector) -> usize {

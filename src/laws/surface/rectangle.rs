@@ -2,7 +2,7 @@
 
 use super::facets::Facets;
 use super::feet::{Features, Feet, Foot};
-use super::{Shape, ShapeContext, ShapeKeys, Surface};
+use super::{Copies, Repeated, Shape, ShapeContext, ShapeKeys, Surface, mesh};
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Triple};
 use serde::Deserialize;
@@ -44,6 +44,14 @@ impl Rectangle {
     }
 }
 
+impl Rectangle {
+    /// Its corners, one after the other \[m\].
+    fn corners(&self) -> [Vector; 4] {
+        let [first, second] = [0, 1].map(|edge| self.along[edge] * self.lengths[edge]);
+        [self.corner, self.corner + first, self.corner + first + second, self.corner + second]
+    }
+}
+
 impl Surface for Rectangle {
     fn key(&self) -> &'static str {
         "rectangle"
@@ -71,11 +79,14 @@ impl Surface for Rectangle {
     }
 
     fn facets(&self, _beside: &[Vector]) -> Option<Facets> {
-        let [first, second] = [0, 1].map(|edge| self.along[edge] * self.lengths[edge]);
-        let points = vec![self.corner, self.corner + first, self.corner + first + second, self.corner + second];
-        let mut facets = Facets { points, ..Facets::default() };
+        let mut facets = Facets { points: self.corners().to_vec(), ..Facets::default() };
         facets.add(&[0, 1, 2, 3]);
         Some(facets)
+    }
+
+    fn repeated(&self, copies: &Copies) -> Result<Repeated, [String; 2]> {
+        let [a, b, c, d] = self.corners().map(Vector::to_array);
+        mesh::joined(self.material, &[[a, b, c], [a, c, d]], copies)
     }
 }
 

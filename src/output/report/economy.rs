@@ -233,11 +233,13 @@ fn dissipation(present: &Simulation, safety: f64) -> Option<String> {
     let (restitution, error) =
         tried.reduce(|most, next| if next.1.restitution > most.1.restitution { next } else { most })?;
     let (percent, word) = (100.0 * error.dissipation.abs(), if error.dissipation < 0.0 { "less" } else { "more" });
-    (error.restitution > Accuracy::default().error()).then(|| {
-        format!(
-            "[run] safety = {safety}: an impact of two bodies alone with e = {restitution:.2} dissipates {percent:.0} % {word} than it should"
-        )
-    })
+    let does = if error.kept > 1.0 {
+        format!("gains {:.0} % of its energy in the mean", 100.0 * (error.kept - 1.0))
+    } else {
+        format!("dissipates {percent:.0} % {word} than it should")
+    };
+    (error.restitution > Accuracy::default().error())
+        .then(|| format!("[run] safety = {safety}: an impact of two bodies alone with e = {restitution:.2} {does}"))
 }
 
 /// A mesh whose facets are smaller than what touches them.

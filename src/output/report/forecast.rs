@@ -4,7 +4,6 @@ use super::passing::{Files, ParticleExchange};
 use super::trial::Trial;
 use crate::base::words::{counted, duration};
 use crate::engine::simulation::Simulation;
-use crate::laws::contact::impact::LONGEST_PART;
 use crate::output::results::schedule::{Counted, Schedule};
 use crate::scene::{Scene, Step};
 use std::sync::Arc;
@@ -125,7 +124,7 @@ fn steps(
         return [schedule.steps(begins, now); 3];
     };
     let [smallest, largest] = match scene.run.step {
-        Step::Following => [present.part_of_impacts(), LONGEST_PART],
+        Step::Following => [present.part_of_impacts(), present.longest_part()],
         _ => [part; 2],
     };
     let mut falling = present.state().clone();

@@ -96,7 +96,7 @@ fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
         let [x, y, z, u, v, w] = [(); 6].map(|()| uniform(&mut random));
         let (position, velocity) = (Vector::new(x, y, z).row_with(uniform(&mut random)), [u, v, w, 1.0]);
         let newcomer = InsertedParticle { position, velocity, inertia: 1.0, material: 0, number };
-        state.particles.add(&newcomer, 0, !state.particles.orientation.is_empty());
+        state.add_particle(&newcomer, 0, !state.particles.orientation.is_empty());
     }
     let after = sizes(&state)?;
     Ok([0, 1].map(|place| (after[place] - before[place]) / f64::from(SAMPLES)))

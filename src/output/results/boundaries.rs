@@ -18,7 +18,7 @@ pub(crate) fn boundaries(
 ) -> PointCloud {
     let mut shown = FacetRows::default();
     for (index, (boundary, moved)) in (0..).zip(scene.boundaries.iter().zip(moved)) {
-        let frame = Frame::of(boundary.reference.into(), moved.displacement.into(), moved.orientation.0);
+        let frame = Frame::of(boundary.reference.into(), moved.shift().into(), moved.orientation.0);
         let beside: Vec<Vector> = corners_around(bodies).map(|corner| frame.inside(corner)).collect();
         let bent = nodes.iter().find(|nodes| nodes.boundary == index).and_then(|nodes| bent(boundary, nodes));
         let shape = bent.as_ref().map_or(&*boundary.shape, Deforming::surface);

@@ -3,6 +3,7 @@
 use super::UNFINISHED;
 use super::error::{OutputError, ResumeError, TakeOverError};
 use super::failure::Refusal;
+use crate::base::files;
 use crate::engine::simulation::{Description, Simulation};
 use crate::engine::state::snapshot::SnapshotError;
 use crate::engine::state::{State, StateFault};
@@ -186,7 +187,7 @@ impl Checkpoint {
     /// Reads a checkpoint of any scene.
     pub fn read(path: &Path) -> Result<Self, ResumeError> {
         let at = path.to_owned();
-        let bytes = fs::read(path).map_err(|source| ResumeError::Read { path: at.clone(), source })?;
+        let bytes = files::read(path).map_err(|source| ResumeError::Read { path: at.clone(), source })?;
         let Some(rest) = bytes.strip_prefix(HEAD.as_bytes()) else {
             return Err(if is_checkpoint(&bytes) {
                 ResumeError::Format { path: at }

@@ -1,5 +1,6 @@
 //! Inputs of a run over time, from a table such as a master leaves.
 
+use crate::base::files;
 use crate::engine::simulation::Simulation;
 use crate::interface::{Interface, Quantity, Value};
 use crate::output::results::InputsError;
@@ -34,7 +35,8 @@ impl Inputs {
     /// notes them, too.
     pub(crate) fn read(path: &Path, interface: &Interface) -> Result<Self, InputsError> {
         let unreadable = |source| InputsError::Read { path: path.to_owned(), source };
-        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
+        let bytes = files::read(path).map_err(|error| unreadable(error.into()))?;
+        let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&*bytes);
         let names = reader.headers().map_err(unreadable)?.clone();
         if interface.inputs().next().is_none() {
             return Err(InputsError::NoInput { path: path.to_owned() });

@@ -34,6 +34,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(moduli(scene));
     remarks.extend(unusual(scene));
     remarks.extend(unread(scene));
+    remarks.extend(scene.unread.iter().cloned());
     remarks.extend(idle(scene));
     remarks.extend(columns(scene));
     remarks.extend(passed_through(scene));
@@ -439,6 +440,38 @@ mod tests {
         );
         let read = format!("{law}\n[contact.c.rolling.cdt]\n[contact.c.cohesion.sjkr]");
         assert!(unread(&scene(&more, &read, 2500.0)).is_empty());
+    }
+
+    #[test]
+    fn what_particles_and_sets_say_themselves_is_remarked_where_it_stands_once_more() {
+        let unread = |more: &str| {
+            let text = format!(
+                "[material.g]\ndensity = 2500.0\n[clump.c]\nspheres = [{{ position = [0.0, 0.0, 0.0], radius = 1e-3 }}]\n{more}"
+            );
+            let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+            Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")).unread.clone()
+        };
+        let list = |keys: &str| format!("list = [{{ position = [0.0, 0.0, 0.0]{keys} }}]\n");
+        let spheres = "[particles.a]\nmaterial = \"g\"\nvelocity = [1.0, 0.0, 0.0]\n";
+        let own = ", radius = 1e-3, velocity = [0.0, 0.0, 1.0]";
+        assert_eq!(
+            unread(&format!("{spheres}{}", list(own))),
+            [
+                "[clump.c] spheres: nothing reads it; no set or insertion has such clumps",
+                "[particles.a] velocity: nothing reads it; each of its particles has its own"
+            ]
+        );
+        let clumps = "[particles.a]\nclump = \"c\"\norientation = \"random\"\n";
+        let told =
+            unread(&format!("material = \"g\"\n{clumps}{}", list(", material = \"g\", orientation = [1, 0, 0, 0]")));
+        assert_eq!(
+            told,
+            [
+                "[clump.c] material: nothing reads it; all that place such clumps have their own",
+                "[particles.a] orientation: nothing reads it; each of its particles has its own"
+            ]
+        );
+        assert!(unread(&format!("material = \"g\"\n{clumps}{}", list(""))).is_empty());
     }
 
     #[test]

@@ -81,6 +81,11 @@ impl ClumpKeys {
             report("mass", Mistake::Missing { expected: "an inertia is that of a mass".to_owned() });
             return None;
         }
+        if let (Some(_), Some(_)) = (self.density, self.mass) {
+            let (what, expected) = ("the clump has a mass".to_owned(), "leave density out".to_owned());
+            report("density", Mistake::InvalidCombination { what, expected });
+            return None;
+        }
         // About one of the spheres, so that nothing is lost far from the origin of the frame.
         let base = spheres[0].0;
         let about: Vec<_> =

@@ -117,6 +117,13 @@ impl Clump {
 }
 
 impl SceneDraft {
+    /// Radius of the largest sphere about a mass centre that holds a clump, or one that comes; 0 where there is none \[m\].
+    pub(crate) fn widest_clump(&self) -> f64 {
+        let there = |clump: &Clump| clump.scale * self.clump_shapes[clump.shape as usize].bounding_radius();
+        let coming = self.insertions.iter().filter(|it| it.has_clumps()).map(|it| it.radii()[1]);
+        self.clumps.iter().map(there).chain(coming).fold(0.0, f64::max)
+    }
+
     /// Indices of the spheres of a clump among the particles.
     pub fn spheres_of(&self, clump: &Clump) -> std::ops::Range<usize> {
         let first = clump.first as usize;

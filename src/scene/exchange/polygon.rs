@@ -49,6 +49,14 @@ impl Polygon {
         Ok(Self { flat, normal: normal.to_array(), axes: [first.to_array(), second.to_array()], corners })
     }
 
+    /// The smallest box around it: lower and upper corner \[m\].
+    pub(crate) fn bounds(&self) -> [[f64; 3]; 2] {
+        let start = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        self.corners.iter().fold(start, |[low, high], corner| {
+            [[0, 1, 2].map(|axis| low[axis].min(corner[axis])), [0, 1, 2].map(|axis| high[axis].max(corner[axis]))]
+        })
+    }
+
     /// Whether the way from one point to another \[m\] passes through it: `Some(true)` towards its front.
     pub fn is_passed(&self, from: Vector, to: Vector) -> Option<bool> {
         let (origin, normal) = (Vector::from(self.corners[0]), Vector::from(self.normal));

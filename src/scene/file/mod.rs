@@ -5,13 +5,12 @@ pub(crate) mod parameters;
 mod tables;
 
 use crate::base::document::{self, Document, Faults, Mistake, SceneError, SceneErrors, Setting};
-use crate::base::memory;
+use crate::base::files;
 use crate::scene::file::parameters::{CENTRAL_DERIVATIVES, SAFETY, THREADS, TIME_STEP};
 use crate::scene::packing::PackingProgress;
 use crate::scene::{Models, Scene, Source};
 use check::raw_tables;
 use std::collections::BTreeMap;
-use std::fs;
 use std::io::{Error, ErrorKind};
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -45,7 +44,7 @@ impl Models {
         let text = String::from_utf8(text).map_err(|_| unreadable(&name, "it is not UTF-8 text".to_owned()))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut source = Source { name, text, files: BTreeMap::new() };
-        let changes = document::apply(&mut source.text, settings);
+        let changes = document::apply(&mut source.text, settings)?;
         let scene = self.with_files(&mut source, folder, tell).map_err(|errors| changes.told(&source.name, errors))?;
         Ok((scene, source))
     }
@@ -74,7 +73,7 @@ impl Models {
     pub fn scene(&self, source: &Source, settings: &[Setting]) -> Result<Scene, SceneErrors> {
         if !settings.is_empty() {
             let mut changed = Source::clone(source);
-            let changes = document::apply(&mut changed.text, settings);
+            let changes = document::apply(&mut changed.text, settings)?;
             return self.scene(&changed, &[]).map_err(|errors| changes.told(&source.name, errors));
         }
         let document = Document::parse(&source.name, &source.text)?;
@@ -134,21 +133,9 @@ fn unreadable(name: &str, reason: String) -> SceneErrors {
     SceneErrors { list: vec![SceneError { file, line: None, table, key, mistake }] }
 }
 
-/// The bytes of a file that there is memory for; otherwise why it cannot be read.
+/// The bytes of a file; otherwise why it cannot be read.
 fn bytes(path: &Path) -> Result<Vec<u8>, String> {
-    let about = fs::metadata(path).map_err(|error| reason(&error))?;
-    if about.is_dir() {
-        return Err("it is a folder".to_owned());
-    }
-    // Devices and pipes may have no end.
-    if !about.is_file() {
-        return Err("expected a file, found a device or a pipe".to_owned());
-    }
-    let length = about.len();
-    if let Some(expected) = memory::lacking(length) {
-        return Err(format!("expected {expected}, found {:.2} GB", length as f64 / 1e9));
-    }
-    fs::read(path).map_err(|error| reason(&error))
+    files::read(path).map_err(|error| reason(&error))
 }
 
 /// Why a file cannot be read, in the same words on every system.

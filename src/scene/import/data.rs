@@ -1,6 +1,6 @@
 //! Data files of LIGGGHTS and LAMMPS (`read_data`, `write_data`) with spheres.
 
-use super::{FileFault, REPORTED, Request, Rows, non_spherical, periodic};
+use super::{Bounds, FileBox, FileFault, REPORTED, Request, Rows, non_spherical};
 use crate::base::document::Mistake;
 use std::collections::BTreeMap;
 
@@ -28,6 +28,18 @@ struct Reader {
     faults: Vec<FileFault>,
     /// How many atoms the head announces, and where.
     announced: Option<(usize, usize)>,
+    /// Lower and upper bounds of the box along each axis.
+    bounds: [Option<[f64; 2]>; 3],
+    /// The tilts xy, xz, yz.
+    tilts: [f64; 3],
+    /// Edges written as vectors, and the corner.
+    vectors: [Option<[f64; 3]>; 4],
+    /// The last line that says something of the box.
+    box_line: usize,
+    /// How often each atom crossed the faces; empty where none did.
+    crossed: Vec<[i64; 3]>,
+    /// The line of the first that did.
+    crossed_at: Option<usize>,
 }
 
 /// Reads the text of a data file, and the units it states.
@@ -80,9 +92,34 @@ impl Reader {
             [count, "ellipsoids" | "bodies" | "lines" | "triangles"] if count != "0" => {
                 return Err(non_spherical(number));
             }
+            [low, high, "xlo" | "ylo" | "zlo", "xhi" | "yhi" | "zhi"] => {
+                let axis = ["xlo", "ylo", "zlo"].iter().position(|name| *name == words[2]).unwrap_or(0);
+                self.bounds[axis] = Some(bounds([low, high], number)?);
+                self.box_line = number;
+            }
+            [x, y, z, "xy", "xz", "yz"] => {
+                self.tilts = bounds([x, y, z], number)?;
+                self.box_line = number;
+            }
+            [x, y, z, "avec" | "bvec" | "cvec"] | [x, y, z, "abc", "origin"] => {
+                let place = ["avec", "bvec", "cvec"].iter().position(|name| *name == words[3]).unwrap_or(3);
+                self.vectors[place] = Some(bounds([x, y, z], number)?);
+                self.box_line = number;
+            }
             _ => {}
         }
         Ok(())
+    }
+
+    /// The box, if the head says all of it.
+    fn around(&self) -> Option<Bounds> {
+        if let [Some(a), Some(b), Some(c), Some(low)] = self.vectors {
+            return Some(Bounds { low, edges: [a, b, c] });
+        }
+        let [Some(x), Some(y), Some(z)] = self.bounds else { return None };
+        let [xy, xz, yz] = self.tilts;
+        let edges = [[x[1] - x[0], 0.0, 0.0], [xy, y[1] - y[0], 0.0], [xz, yz, z[1] - z[0]]];
+        Some(Bounds { low: [x[0], y[0], z[0]], edges })
     }
 
     /// A line of the section Atoms.
@@ -101,8 +138,22 @@ impl Reader {
             let expected = format!("{}, and perhaps ix iy iz, of atom style {wanted}", columns.join(" "));
             return Err(vec![FileFault::at(number, "", Mistake::Unexpected { found, expected })]);
         }
-        if words[columns.len()..].iter().any(|image| *image != "0") {
-            return Err(periodic(number));
+        let mut crossed = [0; 3];
+        for (count, word) in crossed.iter_mut().zip(&words[columns.len()..]) {
+            match word.parse::<i32>() {
+                Ok(flag) => *count = i64::from(flag),
+                Err(_) => {
+                    let (found, expected) = (format!("{word:?}"), "a whole number".to_owned());
+                    self.faults.push(FileFault::at(number, "ix iy iz", Mistake::Unexpected { found, expected }));
+                }
+            }
+        }
+        if crossed != [0; 3] {
+            self.crossed_at.get_or_insert(number);
+        }
+        if self.crossed_at.is_some() {
+            self.crossed.resize(self.rows.lines.len(), [0; 3]);
+            self.crossed.push(crossed);
         }
         for (word, column) in words.iter().zip(*columns) {
             match *column {
@@ -172,7 +223,24 @@ impl Reader {
         if !self.faults.is_empty() {
             return Err(self.faults);
         }
+        let bounds = self.around();
         let mut rows = Rows { count, label_column: "type".to_owned(), ..self.rows };
+        if let Some(line) = self.crossed_at {
+            let Some(bounds) = bounds else {
+                let (found, expected) =
+                    ("a particle that crossed a face".to_owned(), "a box: xlo xhi, ylo yhi, zlo zhi");
+                let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
+                return Err(vec![FileFault { line: Some(line), column: String::new(), mistake }]);
+            };
+            let lattice = bounds.lattice(self.box_line)?;
+            for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                let places = self.columns.entry(name).or_default().iter_mut();
+                places.zip(&self.crossed).for_each(|(place, count)| *place += lattice.displacement(*count)[axis]);
+            }
+            rows.around = Some(FileBox { lattice, is_told: false, line, is_crossed: true });
+        } else if let Some(lattice) = bounds.and_then(|bounds| bounds.lattice(self.box_line).ok()) {
+            rows.around = Some(FileBox { lattice, is_told: false, line: self.box_line, is_crossed: false });
+        }
         for name in NAMES {
             if let Some(column) = self.columns.remove(name) {
                 rows.insert(name, column);
@@ -180,4 +248,16 @@ impl Reader {
         }
         Ok(rows)
     }
+}
+
+/// The numbers of a box in a line.
+fn bounds<const N: usize>(words: [&str; N], line: usize) -> Result<[f64; N], Vec<FileFault>> {
+    let mut numbers = [0.0; N];
+    for (number, word) in numbers.iter_mut().zip(words) {
+        match word.parse::<f64>() {
+            Ok(value) if value.is_finite() => *number = value,
+            _ => return Err(vec![FileFault::number(line, "", word)]),
+        }
+    }
+    Ok(numbers)
 }

@@ -1,6 +1,9 @@
 //! Dump files of LIGGGHTS and LAMMPS in text form: one or more snapshots of named columns.
 
-use super::{DIGITS, FileFault, POSSIBLE, REPORTED, Request, Rows, agree, largest, needed, non_spherical, periodic};
+use super::{
+    Bounds, DIGITS, FileBox, FileFault, POSSIBLE, REPORTED, Request, Rows, agree, crossed, largest, needed,
+    non_spherical,
+};
 use crate::base::document::Mistake;
 
 /// A line of text and its number.
@@ -101,6 +104,14 @@ fn known<'a>(column: &'a str, extra: &[String]) -> Option<&'a str> {
     }
 }
 
+/// Columns that say how often an atom crossed the faces of the box.
+const FLAGS: [&str; 3] = ["ix", "iy", "iz"];
+
+/// Whether a column holds places in the box.
+fn is_wrapped(column: &str) -> bool {
+    ["x", "y", "z", "xs", "ys", "zs"].contains(&column)
+}
+
 /// Whether a column holds shares of the box.
 fn is_scaled(column: &str) -> bool {
     ["xs", "ys", "zs", "xsu", "ysu", "zsu"].contains(&column)
@@ -111,9 +122,6 @@ impl Snapshot<'_> {
     fn read(&self, request: &Request) -> Result<Rows, Vec<FileFault>> {
         let (line, columns) = self.columns;
         let columns: Vec<&str> = columns.split_whitespace().collect();
-        if self.faces.1.contains("pp") {
-            return Err(periodic(self.faces.0));
-        }
         if columns.iter().any(|column| ["shapex", "quatw", "blockiness1", "id_multisphere"].contains(column)) {
             return Err(non_spherical(line));
         }
@@ -145,10 +153,16 @@ impl Snapshot<'_> {
         };
         let mut numbers = self.numbers(&columns, &names, &mut rows)?;
         self.unscale(&columns, &mut numbers)?;
+        rows.around = self.around()?;
+        let flagged = self.unwrap(&columns, &mut numbers, rows.around.as_ref())?;
+        let unwrapped = |axis: &str| ["u", "su"].iter().any(|end| columns.contains(&format!("{axis}{end}").as_str()));
+        let repeats = rows.around.is_some_and(|around| around.is_periodic());
+        // Where nothing says how often a particle crossed, its place in the box is another one than that without the box.
+        let is_other = |column: &str| repeats && !flagged && is_wrapped(column) && unwrapped(&column[..1]);
         // Places as such are taken before those made of shares of the box, which have fewer digits.
         for scaled in [false, true] {
             for ((column, name), numbers) in columns.iter().zip(&names).zip(&mut numbers) {
-                if let Some(name) = name.filter(|_| is_scaled(column) == scaled) {
+                if let Some(name) = name.filter(|_| is_scaled(column) == scaled && !is_other(column)) {
                     self.take(name, column, std::mem::take(numbers), &mut rows)?;
                 }
             }
@@ -160,9 +174,8 @@ impl Snapshot<'_> {
 
     /// Takes the numbers of a column.
     fn take(&self, name: &str, column: &str, numbers: Vec<f64>, rows: &mut Rows) -> Result<(), Vec<FileFault>> {
-        if ["ix", "iy", "iz"].contains(&name) {
-            let crossed = numbers.iter().position(|image| *image != 0.0);
-            return crossed.map_or(Ok(()), |row| Err(periodic(self.atoms[row].0)));
+        if FLAGS.contains(&name) {
+            return Ok(());
         }
         // Shares have as many digits of the box as places have of themselves.
         let box_size = if is_scaled(column) {
@@ -219,16 +232,76 @@ impl Snapshot<'_> {
         if faults.is_empty() { Ok(numbers) } else { Err(faults) }
     }
 
+    /// The box and along which edges it repeats; none where it has no bounds or does not repeat.
+    fn around(&self) -> Result<Option<FileBox>, Vec<FileFault>> {
+        let line = self.faces.0;
+        let mut faces = self.faces.1.split_whitespace().rev();
+        let mut repeats = || faces.next() == Some("pp");
+        let [z, y, x] = [(); 3].map(|()| repeats());
+        if [x, y, z] == [false; 3] {
+            return Ok(None);
+        }
+        let Some((low, edges)) = self.edges() else {
+            let (found, expected) = ("no bounds of the box".to_owned(), "a lower and an upper one".to_owned());
+            return Err(vec![FileFault::at(line, "", Mistake::Unexpected { found, expected })]);
+        };
+        let lattice = Bounds { low, edges }.lattice(line)?;
+        let lattice = crate::base::geometry::Lattice { periodic: [x, y, z], ..lattice };
+        Ok(Some(FileBox { lattice, is_told: true, line, is_crossed: false }))
+    }
+
+    /// From places in the box to those where atoms are that crossed its faces. Returns whether the file says which did.
+    fn unwrap(
+        &self,
+        columns: &[&str],
+        numbers: &mut [Vec<f64>],
+        around: Option<&FileBox>,
+    ) -> Result<bool, Vec<FileFault>> {
+        let flags = FLAGS.map(|flag| columns.iter().position(|column| *column == flag));
+        let flags = match flags {
+            [None, None, None] => return Ok(false),
+            [Some(x), Some(y), Some(z)] => [x, y, z].map(|column| numbers[column].clone()),
+            _ => {
+                let named = |there: bool| {
+                    let names = FLAGS.iter().zip(flags).filter(|(_, flag)| flag.is_some() == there);
+                    names.map(|(name, _)| *name).collect::<Vec<_>>().join(" and ")
+                };
+                let found = format!("{} without {}", named(true), named(false));
+                let mistake = Mistake::Unexpected { found, expected: "all three, or none".to_owned() };
+                return Err(vec![FileFault::at(self.columns.0, "", mistake)]);
+            }
+        };
+        for row in 0..self.atoms.len() {
+            let count = [0, 1, 2].map(|axis| flags[axis][row] as i64);
+            if count == [0; 3] {
+                continue;
+            }
+            let lattice = around.map(|around| around.lattice);
+            let repeats = lattice.map_or([false; 3], |lattice| lattice.periodic);
+            let Some(lattice) = lattice.filter(|_| (0..3).all(|axis| count[axis] == 0 || repeats[axis])) else {
+                return Err(crossed(self.atoms[row].0));
+            };
+            let shift = lattice.displacement(count);
+            for (column, numbers) in columns.iter().zip(&mut *numbers).filter(|(column, _)| is_wrapped(column)) {
+                let axis = ["x", "y", "z"].iter().position(|axis| column.starts_with(axis)).unwrap_or(0);
+                numbers[row] += shift[axis];
+            }
+        }
+        Ok(true)
+    }
+
     /// The box of these shares: where it begins, and its three edges.
     fn edges(&self) -> Option<([f64; 3], [[f64; 3]; 3])> {
         let bound = |axis: usize, place: usize| -> Option<f64> {
             self.bounds.get(axis)?.1.split_whitespace().nth(place)?.parse().ok().filter(|bound: &f64| bound.is_finite())
         };
+        if self.faces.1.contains("abc") {
+            let row = |axis: usize| Some([bound(axis, 0)?, bound(axis, 1)?, bound(axis, 2)?, bound(axis, 3)?]);
+            let rows = [row(0)?, row(1)?, row(2)?];
+            return Some((rows.map(|row| row[3]), rows.map(|[x, y, z, _]| [x, y, z])));
+        }
         let bounds = [0, 1, 2].map(|axis| Some([bound(axis, 0)?, bound(axis, 1)?]));
         let [Some(x), Some(y), Some(z)] = bounds else { return None };
-        if self.faces.1.contains("abc") {
-            return None;
-        }
         // Bounds of a tilted box are those of the smallest upright one around it.
         let tilted = self.faces.1.contains("xy");
         let tilt = |axis| if tilted { bound(axis, 2) } else { Some(0.0) };

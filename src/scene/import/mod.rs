@@ -9,6 +9,7 @@ mod vtu;
 pub(crate) use format::{Format, Units};
 
 use crate::base::document::Mistake;
+use crate::base::geometry::Lattice;
 use crate::base::memory;
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
@@ -41,6 +42,52 @@ pub(crate) struct Rows {
     pub(crate) label_column: String,
     /// Line of each particle in the file; empty if the file has no lines.
     pub(crate) lines: Vec<u32>,
+    /// The box around them, if the file says it.
+    pub(crate) around: Option<FileBox>,
+}
+
+/// The box of a file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct FileBox {
+    /// Its corner and edges, and along which edges it repeats if the file says so \[m\].
+    pub(crate) lattice: Lattice,
+    /// Whether the file says along which edges it repeats.
+    pub(crate) is_told: bool,
+    /// The line that tells it, or the first one with a particle that crossed its faces.
+    pub(crate) line: usize,
+    /// Whether there is such a particle.
+    pub(crate) is_crossed: bool,
+}
+
+impl FileBox {
+    /// Whether particles of the file are in a cell that repeats.
+    pub(crate) fn is_periodic(&self) -> bool {
+        self.is_crossed || self.lattice.periodic != [false; 3]
+    }
+}
+
+/// Numbers of a box as a file writes them.
+#[derive(Clone, Copy, Debug)]
+struct Bounds {
+    /// The lower corner.
+    low: [f64; 3],
+    /// The edges.
+    edges: [[f64; 3]; 3],
+}
+
+impl Bounds {
+    /// The box of these numbers at a line, if its edges are as a cell has them.
+    fn lattice(self, line: usize) -> Result<Lattice, Vec<FileFault>> {
+        let lattice = Lattice { origin: self.low, edges: self.edges, periodic: [false; 3] };
+        match crate::scene::cell::fault_of(&lattice) {
+            None => Ok(lattice),
+            Some(expected) => {
+                let found = format!("a box with edges {:?}", self.edges);
+                let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
+                Err(vec![FileFault { line: Some(line), column: String::new(), mistake }])
+            }
+        }
+    }
 }
 
 impl Rows {
@@ -309,6 +356,10 @@ fn convert(rows: &mut Rows, units: Units) {
         return;
     }
     let [length, mass, time] = units.sizes();
+    if let Some(FileBox { lattice, .. }) = &mut rows.around {
+        let parts = lattice.edges.as_flattened_mut().iter_mut().chain(&mut lattice.origin);
+        parts.for_each(|part| *part *= length);
+    }
     for (name, column) in &mut rows.columns {
         let factor = match name.as_str() {
             "x" | "y" | "z" | "radius" => length,
@@ -331,13 +382,10 @@ fn needed(found: &[String], line: Option<usize>) -> Result<(), Vec<FileFault>> {
     if missing.is_empty() { Ok(()) } else { Err(missing) }
 }
 
-/// Refuses particles that crossed the face of a periodic cell, or the cell itself.
-fn periodic(line: usize) -> Vec<FileFault> {
-    let mistake = Mistake::Unsupported {
-        what: "periodic cells",
-        instead: "positions in a box with fixed or shrink-wrapped faces",
-    };
-    vec![FileFault { line: Some(line), column: String::new(), mistake }]
+/// Refuses particles that crossed a face of a box which does not repeat.
+fn crossed(line: usize) -> Vec<FileFault> {
+    let (found, expected) = ("a particle that crossed a face".to_owned(), "a box that repeats there".to_owned());
+    vec![FileFault { line: Some(line), column: String::new(), mistake: Mistake::Unexpected { found, expected } }]
 }
 
 /// Refuses bodies that are not spheres.
@@ -438,10 +486,73 @@ mod tests {
         assert!(labels.contains("both columns material and type"), "{labels}");
     }
 
+    /// Positions of a particle.
+    fn place(rows: &Rows, row: usize) -> [f64; 3] {
+        ["x", "y", "z"].map(|axis| rows.columns[axis][row])
+    }
+
     #[test]
-    fn a_tilted_box_with_fixed_faces_is_read_and_a_periodic_one_is_named() {
+    fn places_in_a_periodic_box_are_those_without_its_faces() {
+        // Bounds are those around the leaning box: edges (2, 0, 0), (0.5, 2, 0), (0, 0, 2) from (0, 0, 0).
+        let read = |columns: &str, line: &str| {
+            let text = format!(
+                "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp ff\n0 2.5 0.5\n0 2 0\n0 2 0\n\
+                 ITEM: ATOMS id type radius {columns}\n1 1 0.1 {line}\n"
+            );
+            read_as("a.dump", text.as_bytes())
+        };
+        let unwrapped = [0.5 + 2.0 * 3.0 - 0.5, 1.0 - 2.0, 1.5];
+        for (columns, line) in [
+            ("x y z ix iy iz", "0.5 1 1.5 3 -1 0"),
+            ("xs ys zs ix iy iz", "0.125 0.5 0.75 3 -1 0"),
+            ("xu yu zu", "6 -1 1.5"),
+            ("xsu ysu zsu", "3.125 -0.5 0.75"),
+            ("x y z xu yu zu", "0.5 1 1.5 6 -1 1.5"),
+            ("xu yu zu x y z ix iy iz", "6 -1 1.5 0.5 1 1.5 3 -1 0"),
+        ] {
+            let rows = read(columns, line).unwrap_or_else(|faults| panic!("{columns}: {faults}"));
+            assert_eq!(place(&rows, 0), unwrapped, "{columns}");
+            let around = rows.around.unwrap();
+            assert_eq!(around.lattice.edges, [[2.0, 0.0, 0.0], [0.5, 2.0, 0.0], [0.0, 0.0, 2.0]]);
+            assert_eq!((around.lattice.periodic, around.lattice.origin), ([true, true, false], [0.0; 3]));
+        }
+        assert_eq!(place(&read("x y z", "0.5 1 1.5").unwrap(), 0), [0.5, 1.0, 1.5]);
+        for (columns, line, part) in [
+            ("x y z ix iy iz", "0.5 1 1.5 0 0 1", "a particle that crossed a face"),
+            ("x y z ix", "0.5 1 1.5 1", "ix without iy and iz"),
+            ("xu yu zu x y z ix iy iz", "6 -1 1.5 0.5 1 1.5 2 -1 0", "of x and "),
+        ] {
+            let found = read(columns, line).unwrap_err();
+            assert!(found.contains(part), "{found}");
+        }
+        let general = "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS abc origin pp pp pp\n2 0 0 0.1\n\
+                       0.5 2 0 0.2\n0 0 2 0.3\nITEM: ATOMS id type radius xs ys zs\n1 1 0.1 0.5 0.5 0.5\n";
+        let rows = read_as("a.dump", general.as_bytes()).unwrap();
+        assert_eq!(place(&rows, 0), [0.1 + 1.25, 1.2, 1.3]);
+        let turned = read_as("a.dump", general.replace("2 0 0 0.1", "2 1 0 0.1").as_bytes()).unwrap_err();
+        assert!(turned.contains("a box with edges [[2.0, 1.0, 0.0]"), "{turned}");
+    }
+
+    #[test]
+    fn image_flags_of_a_data_file_lead_out_of_its_box() {
+        let text = "t, units = si\n\n1 atoms\n0 2 xlo xhi\n0 2 ylo yhi\n0 2 zlo zhi\n0.5 0 0 xy xz yz\n\nAtoms # sphere\n\n\
+                    4 1 0.1 2500 0.5 1 1.5 3 -1 0\n";
+        let rows = read_as("a.data", text.as_bytes()).unwrap();
+        assert_eq!(place(&rows, 0), [6.0, -1.0, 1.5]);
+        let around = rows.around.unwrap();
+        assert!(around.is_crossed && !around.is_told && around.line == 11, "{around:?}");
+        let without = read_as("a.data", text.replace("0 2 xlo xhi\n", "\n").as_bytes()).unwrap_err();
+        assert!(without.contains("xlo xhi"), "{without}");
+        let general = text.replace(
+            "0 2 xlo xhi\n0 2 ylo yhi\n0 2 zlo zhi\n0.5 0 0 xy xz yz",
+            "2 0 0 avec\n0.5 2 0 bvec\n0 0 2 cvec\n0 0 0 abc origin",
+        );
+        assert_eq!(place(&read_as("a.data", general.as_bytes()).unwrap(), 0), [6.0, -1.0, 1.5]);
+    }
+
+    #[test]
+    fn a_tilted_box_with_fixed_faces_is_read() {
         let line = ["1 1 0.5 0.5 0.5 0.1"];
         assert!(dump("xy xz yz ff ff ff", "id type x y z radius", &line).is_ok());
-        assert!(dump("xy xz yz pp ff ff", "id type x y z radius", &line).unwrap_err().contains("periodic cells"));
     }
 }

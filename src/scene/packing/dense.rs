@@ -39,7 +39,7 @@ pub(super) fn dense(
         return Err(("packing.solid_fraction", Mistake::Unexpected { found, expected }));
     }
     let radii = drawn(region.volume() * solid_fraction, radii, random)?;
-    let width = region.size().into_iter().fold(f64::INFINITY, f64::min);
+    let width = region.width();
     let largest = radii.iter().copied().fold(0.0, f64::max);
     if 2.0 * largest * (1.0 + MARGIN) > width {
         let (found, expected) = (format!("a region {width:?} m wide"), "room for the largest sphere".to_owned());
@@ -151,7 +151,7 @@ mod tests {
 
     #[test]
     fn a_cylinder_is_filled_as_far_as_asked_without_overlap() {
-        let spheres = packing(&core(0.56), 1, "a", &mut |_| {}).unwrap();
+        let spheres = packing(&core(0.56), None, (1, "a"), &mut |_| {}).unwrap();
         let volume: f64 = spheres.iter().map(|(_, radius)| 4.0 / 3.0 * PI * radius * radius * radius).sum();
         let fraction = volume / (PI * 0.75 * 0.75 * 3.0);
         assert!((fraction - 0.56).abs() < 0.56 / spheres.len() as f64 * 4.0, "{fraction}");
@@ -164,14 +164,14 @@ mod tests {
         let (to, radius) = (Triple([0.0, 0.0, 0.8]), Positive::new(4.0).unwrap());
         let cylinder = CylinderTable { from: Triple([0.0; 3]), to, radius };
         let table = PackingTable { cylinder: Some(cylinder), radius: Radii([0.1, 0.1]), ..core(0.55) };
-        let spheres = packing(&table, 1, "a", &mut |_| {}).unwrap();
+        let spheres = packing(&table, None, (1, "a"), &mut |_| {}).unwrap();
         assert_eq!(spheres.len(), 5280);
         assert!(gaps(&spheres).iter().all(|gap| *gap > 0.0));
     }
 
     #[test]
     fn most_spheres_of_a_dense_packing_touch_but_for_the_margin() {
-        let spheres = packing(&core(0.57), 1, "a", &mut |_| {}).unwrap();
+        let spheres = packing(&core(0.57), None, (1, "a"), &mut |_| {}).unwrap();
         let touching = gaps(&spheres).iter().filter(|gap| **gap < 1e-3 * 0.1).count();
         let coordination = 2.0 * touching as f64 / spheres.len() as f64;
         assert!((3.0..6.0).contains(&coordination), "{coordination}");
@@ -179,7 +179,7 @@ mod tests {
 
     #[test]
     fn the_same_seed_and_set_give_the_same_dense_packing_and_others_another() {
-        let of = |seed, set| packing(&core(0.5), seed, set, &mut |_| {}).unwrap();
+        let of = |seed, set| packing(&core(0.5), None, (seed, set), &mut |_| {}).unwrap();
         assert_eq!(of(1, "a"), of(1, "a"));
         assert_ne!(of(1, "a"), of(2, "a"));
         assert_ne!(of(1, "a"), of(1, "b"));
@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn scattered_spheres_stay_inside_a_cylinder() {
         let table = PackingTable { count: NonZeroU32::new(150), solid_fraction: None, ..core(0.5) };
-        let spheres = packing(&table, 1, "a", &mut |_| {}).unwrap();
+        let spheres = packing(&table, None, (1, "a"), &mut |_| {}).unwrap();
         assert!(excess(&spheres) < 1e-14, "{}", excess(&spheres));
         assert!(gaps(&spheres).iter().all(|gap| *gap > -1e-14));
     }

@@ -6,6 +6,7 @@ use super::keys::PackingTable;
 use super::region::Region;
 use super::{PackingProgress, Sphere, too_many};
 use crate::base::document::Mistake;
+use crate::base::geometry::Lattice;
 use rand_chacha::ChaCha8Rng;
 
 /// Places tried for one sphere before the region counts as full.
@@ -65,14 +66,14 @@ impl Class {
     }
 }
 
-/// The spheres of a packing. Otherwise the key that is wrong.
+/// The spheres of a packing, in a scene that may have a cell. Otherwise the key that is wrong.
 pub(crate) fn packing(
     table: &PackingTable,
-    seed: u64,
-    set: &str,
+    cell: Option<Lattice>,
+    (seed, set): (u64, &str),
     tell: &mut dyn FnMut(PackingProgress),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
-    let region = Region::named(table)?;
+    let region = Region::named(table, cell)?;
     let mut random = generator(seed, set);
     match (table.count, table.solid_fraction) {
         (Some(count), None) => {
@@ -133,13 +134,14 @@ fn scattered(
 
 /// A place, in coordinates of the region, where the sphere overlaps no other.
 fn room(radius: f64, region: &Region, classes: &[Class], random: &mut ChaCha8Rng) -> Option<[f64; 3]> {
-    let free = region.size().map(|length| length - 2.0 * radius);
-    if free.iter().any(|length| *length < 0.0) {
+    if region.width() < 2.0 * radius {
         return None;
     }
+    let depth = radius + classes.first().map_or(radius, |class| class.largest);
+    let has_room = |place: [f64; 3]| classes.iter().all(|class| class.has_room((place, radius)));
     (0..TRIES)
-        .map(|_| free.map(|length| radius + length * uniform(random)))
-        .find(|place| region.holds(*place, radius) && classes.iter().all(|class| class.has_room((*place, radius))))
+        .map(|_| region.anywhere(radius, random))
+        .find(|place| region.holds(*place, radius) && region.everywhere(*place, depth, has_room))
 }
 
 #[cfg(test)]
@@ -164,7 +166,7 @@ mod tests {
 
     #[test]
     fn spheres_of_wide_sizes_stay_apart_and_inside() {
-        let spheres = packing(&cube(500, [0.005, 0.06]), 1, "a", &mut |_| {}).unwrap();
+        let spheres = packing(&cube(500, [0.005, 0.06]), None, (1, "a"), &mut |_| {}).unwrap();
         for (index, (p, r)) in spheres.iter().enumerate() {
             assert!(p.iter().all(|x| x - r >= -1.0 - 1e-15 && x + r <= 1e-15), "{p:?}");
             for (q, s) in &spheres[..index] {
@@ -176,7 +178,7 @@ mod tests {
 
     #[test]
     fn the_same_seed_and_set_give_the_same_packing_and_others_another() {
-        let of = |seed, set| packing(&cube(50, [0.02, 0.03]), seed, set, &mut |_| {}).unwrap();
+        let of = |seed, set| packing(&cube(50, [0.02, 0.03]), None, (seed, set), &mut |_| {}).unwrap();
         assert_eq!(of(1, "a"), of(1, "a"));
         assert_ne!(of(1, "a"), of(2, "a"));
         assert_ne!(of(1, "a"), of(1, "b"));
@@ -184,7 +186,7 @@ mod tests {
 
     #[test]
     fn a_full_box_says_how_many_it_took() {
-        let (key, mistake) = packing(&cube(10_000, [0.1, 0.1]), 1, "a", &mut |_| {}).unwrap_err();
+        let (key, mistake) = packing(&cube(10_000, [0.1, 0.1]), None, (1, "a"), &mut |_| {}).unwrap_err();
         assert_eq!(key, "packing.count");
         let Mistake::RegionFull { reached, count, fraction } = mistake else { panic!("{mistake}") };
         assert_eq!(count, 10_000);

@@ -1,9 +1,10 @@
-//! Where a packing goes: a box or a cylinder.
+//! Where a packing goes: a box, a cylinder, or a periodic cell.
 
 use super::Sphere;
 use super::generator::uniform;
 use super::keys::{CylinderTable, PackingTable};
 use crate::base::document::Mistake;
+use crate::base::geometry::Lattice;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
@@ -19,6 +20,8 @@ enum Shape {
         /// Length \[m\].
         length: f64,
     },
+    /// Spheres go on through its faces along edges that repeat, and lie whole inside along the others.
+    Cell(Lattice),
 }
 
 /// A region, and where it stands in the scene.
@@ -36,9 +39,10 @@ pub(super) struct Region {
 const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 impl Region {
-    /// The region that a table names; otherwise the key that is wrong.
-    pub(super) fn named(table: &PackingTable) -> Result<Self, (&'static str, Mistake)> {
+    /// The region that a table names, which is the scene's cell where it names none; otherwise the key that is wrong.
+    pub(super) fn named(table: &PackingTable, cell: Option<Lattice>) -> Result<Self, (&'static str, Mistake)> {
         match (&table.corners, &table.cylinder) {
+            (None, None) if cell.is_some() => Ok(Self::cell(cell.unwrap_or_default())),
             (Some(corners), None) => {
                 let [lower, upper] = corners.0;
                 let edges = std::array::from_fn(|axis| upper[axis] - lower[axis]);
@@ -47,10 +51,18 @@ impl Region {
             (None, Some(cylinder)) => Self::cylinder(cylinder),
             _ => {
                 let found = if table.corners.is_some() { "both" } else { "neither" }.to_owned();
-                let expected = "one of box and cylinder".to_owned();
+                let expected = "one of box and cylinder, or a [cell]".to_owned();
                 Err(("packing", Mistake::Unexpected { found, expected }))
             }
         }
+    }
+
+    /// A cell.
+    fn cell(lattice: Lattice) -> Self {
+        let least = |axis: usize| lattice.edges.iter().map(|edge| edge[axis].min(0.0)).sum::<f64>();
+        let low = [0, 1, 2].map(least);
+        let origin = [0, 1, 2].map(|axis| lattice.origin[axis] + low[axis]);
+        Self { shape: Shape::Cell(Lattice { origin: low.map(|part| -part), ..lattice }), origin, axes: UPRIGHT }
     }
 
     /// A cylinder between two points.
@@ -82,7 +94,16 @@ impl Region {
         match self.shape {
             Shape::Box(edges) => edges,
             Shape::Cylinder { radius, length } => [2.0 * radius, 2.0 * radius, length],
+            Shape::Cell(Lattice { edges, .. }) => {
+                [0, 1, 2].map(|axis| edges.iter().map(|edge| edge[axis].abs()).sum::<f64>())
+            }
         }
+    }
+
+    /// The largest diameter of a sphere that it holds, and that in a cell does not meet an image of itself \[m\].
+    pub(super) fn width(&self) -> f64 {
+        let widths = if let Shape::Cell(lattice) = &self.shape { lattice.heights() } else { self.size() };
+        widths.into_iter().fold(f64::INFINITY, f64::min)
     }
 
     /// Volume \[m³\].
@@ -90,13 +111,15 @@ impl Region {
         match self.shape {
             Shape::Box(edges) => edges.iter().product(),
             Shape::Cylinder { radius, length } => PI * radius * radius * length,
+            Shape::Cell(lattice) => lattice.volume(),
         }
     }
 
     /// Whether a sphere in the smallest box around the region is in the region as well.
     pub(super) fn holds(&self, place: [f64; 3], sphere: f64) -> bool {
         match self.shape {
-            Shape::Box(_) => true,
+            // Places there are drawn, and pushed, where the whole sphere is inside.
+            Shape::Box(_) | Shape::Cell(_) => true,
             Shape::Cylinder { radius, .. } => {
                 let (x, y) = (place[0] - radius, place[1] - radius);
                 let free = radius - sphere;
@@ -107,7 +130,16 @@ impl Region {
 
     /// A random place for a sphere that fits, coordinate by coordinate; in a cylinder it may lie in a corner of the box around
     /// it.
-    fn anywhere(&self, sphere: f64, random: &mut ChaCha8Rng) -> [f64; 3] {
+    pub(super) fn anywhere(&self, sphere: f64, random: &mut ChaCha8Rng) -> [f64; 3] {
+        if let Shape::Cell(lattice) = &self.shape {
+            let heights = lattice.heights();
+            let part = |edge: usize, share: f64| match lattice.periodic[edge] {
+                true => share,
+                false => sphere / heights[edge] + (1.0 - 2.0 * sphere / heights[edge]) * share,
+            };
+            let parts = [0, 1, 2].map(|edge| part(edge, uniform(random)));
+            return lattice.point(parts);
+        }
         self.size().map(|length| sphere + (length - 2.0 * sphere) * uniform(random))
     }
 
@@ -118,7 +150,7 @@ impl Region {
     /// apart.
     pub(super) fn scatter(&self, radii: &[f64], random: &mut ChaCha8Rng) -> Vec<Sphere> {
         let crowded = match self.shape {
-            Shape::Box(_) => false,
+            Shape::Box(_) | Shape::Cell(_) => false,
             Shape::Cylinder { radius, length } => {
                 let shadows: f64 = radii.iter().map(|radius| PI * radius * radius).sum();
                 (1.0 - PI / 4.0) * shadows > 2.0 * PI * radius * length
@@ -136,6 +168,16 @@ impl Region {
 
     /// The place nearest to this one where the whole sphere is inside; it must fit at all.
     pub(super) fn nearest_inside(&self, place: [f64; 3], sphere: f64) -> [f64; 3] {
+        if let Shape::Cell(lattice) = &self.shape {
+            if lattice.periodic == [true; 3] {
+                return place;
+            }
+            let (parts, heights) = (lattice.parts(place), lattice.heights());
+            return lattice.point([0, 1, 2].map(|edge| {
+                let least = sphere / heights[edge];
+                if lattice.periodic[edge] { parts[edge] } else { parts[edge].max(least).min(1.0 - least) }
+            }));
+        }
         let size = self.size();
         let mut inside = std::array::from_fn(|axis| place[axis].max(sphere).min(size[axis] - sphere));
         if let Shape::Cylinder { radius, .. } = self.shape {
@@ -152,11 +194,37 @@ impl Region {
         inside
     }
 
+    /// The same place, brought back into a cell.
+    pub(super) fn brought_back(&self, place: [f64; 3]) -> [f64; 3] {
+        if let Shape::Cell(lattice) = &self.shape { lattice.brought_back(place) } else { place }
+    }
+
+    /// Hands out where a sphere in a cell has images no further than `depth` \[m\] from the cell, one of each two that are opposite.
+    pub(super) fn images(&self, place: [f64; 3], depth: f64, mut hand: impl FnMut([f64; 3])) {
+        if let Shape::Cell(lattice) = &self.shape {
+            lattice.images(place, depth, &mut |edges| hand(lattice.displacement(edges)));
+        }
+    }
+
+    /// Whether this holds of a place and, in a cell, of all its images no further than `depth` \[m\] from it.
+    pub(super) fn everywhere(&self, place: [f64; 3], depth: f64, mut holds: impl FnMut([f64; 3]) -> bool) -> bool {
+        let Shape::Cell(lattice) = &self.shape else { return holds(place) };
+        let mut all = true;
+        lattice.near(place, &[[0.0, 1.0]; 3], depth, |shift| {
+            all = all && holds([0, 1, 2].map(|axis| place[axis] + shift[axis]));
+        });
+        all
+    }
+
     /// From coordinates of the region to those of the scene \[m\].
     pub(super) fn in_scene(&self, place: [f64; 3]) -> [f64; 3] {
         let [first, second, third] = self.axes;
         match self.shape {
             Shape::Box(_) => std::array::from_fn(|axis| self.origin[axis] + place[axis]),
+            Shape::Cell(lattice) => {
+                let place = lattice.brought_back(place);
+                [0, 1, 2].map(|axis| self.origin[axis] + place[axis])
+            }
             Shape::Cylinder { .. } => std::array::from_fn(|axis| {
                 self.origin[axis] + first[axis] * place[0] + second[axis] * place[1] + third[axis] * place[2]
             }),

@@ -46,6 +46,8 @@ pub(super) struct Crowd<'a> {
     skin: f64,
     /// Near pairs.
     pairs: Vec<[u32; 2]>,
+    /// In a cell, how far the images that the pairs are of are displaced, the second from the first \[m\].
+    shifts: Vec<[f64; 3]>,
     /// Centres when the pairs were listed \[m\].
     listed_at: Vec<[f64; 3]>,
     /// Rounds so far.
@@ -65,7 +67,7 @@ impl<'a> Crowd<'a> {
         let wide: Vec<f64> = radii.iter().map(|radius| radius * (1.0 + MARGIN)).collect();
         let spheres = region.scatter(&wide, random);
         let skin = 0.3 * radii.iter().copied().fold(f64::INFINITY, f64::min);
-        Self { region, spheres, skin, pairs: Vec::new(), listed_at: Vec::new(), rounds: 0, tell }
+        Self { region, spheres, skin, pairs: Vec::new(), shifts: Vec::new(), listed_at: Vec::new(), rounds: 0, tell }
     }
 
     /// Centres \[m\].
@@ -127,9 +129,30 @@ impl<'a> Crowd<'a> {
     /// Lists all near pairs, in an order that depends on the places alone.
     fn list(&mut self) {
         let half = 0.5 * self.skin;
-        let wide: Vec<([f64; 3], f64)> = self.spheres.iter().map(|(place, radius)| (*place, radius + half)).collect();
-        self.pairs.clear();
-        for_each_overlap(&wide, |a, b, _| self.pairs.push([a, b]));
+        let Self { region, spheres, pairs, shifts, .. } = self;
+        spheres.iter_mut().for_each(|(place, _)| *place = region.brought_back(*place));
+        let largest = spheres.iter().fold(0.0_f64, |most, (_, radius)| most.max(*radius));
+        let mut wide: Vec<([f64; 3], f64)> = spheres.iter().map(|(place, radius)| (*place, radius + half)).collect();
+        let (own, mut images) = (wide.len(), Vec::new());
+        for index in 0..own {
+            let (place, radius) = wide[index];
+            region.images(place, radius + largest + half, |shift| {
+                images.push((index as u32, shift));
+                wide.push(([0, 1, 2].map(|axis| place[axis] + shift[axis]), radius));
+            });
+        }
+        let of = |index: u32| images.get((index as usize).wrapping_sub(own)).copied().unwrap_or((index, [0.0; 3]));
+        pairs.clear();
+        shifts.clear();
+        for_each_overlap(&wide, |a, b, _| {
+            let ((i, from), (j, to)) = (of(a), of(b));
+            if a.min(b) < own as u32 {
+                pairs.push([i, j]);
+                if !images.is_empty() {
+                    shifts.push([0, 1, 2].map(|axis| to[axis] - from[axis]));
+                }
+            }
+        });
         self.listed_at.clear();
         self.listed_at.extend(self.spheres.iter().map(|(place, _)| *place));
     }
@@ -137,9 +160,9 @@ impl<'a> Crowd<'a> {
     /// Pushes each overlapping pair apart, one after the other.
     fn push(&mut self) -> Overlaps {
         let mut met = Overlaps::default();
-        for pair in &self.pairs {
+        for (number, pair) in self.pairs.iter().enumerate() {
             let [a, b] = pair.map(|index| index as usize);
-            let Some(Overlap { depth, reach, way, distance }) = overlap(self.spheres[a], self.spheres[b]) else {
+            let Some(Overlap { depth, reach, way, distance }) = self.overlap(number) else {
                 continue;
             };
             met.note(depth, reach, self.spheres[a].1.min(self.spheres[b].1));
@@ -158,13 +181,21 @@ impl<'a> Crowd<'a> {
     /// The overlaps as the spheres stand.
     fn overlaps(&self) -> Overlaps {
         let mut met = Overlaps::default();
-        for pair in &self.pairs {
+        for (number, pair) in self.pairs.iter().enumerate() {
             let [a, b] = pair.map(|index| self.spheres[index as usize]);
-            if let Some(Overlap { depth, reach, .. }) = overlap(a, b) {
+            if let Some(Overlap { depth, reach, .. }) = self.overlap(number) {
                 met.note(depth, reach, a.1.min(b.1));
             }
         }
         met
+    }
+
+    /// The overlap of a pair, if there is one.
+    #[inline]
+    fn overlap(&self, number: usize) -> Option<Overlap> {
+        let [a, (place, radius)] = self.pairs[number].map(|index| self.spheres[index as usize]);
+        let [x, y, z] = self.shifts.get(number).copied().unwrap_or_default();
+        overlap(a, ([place[0] + x, place[1] + y, place[2] + z], radius))
     }
 }
 

@@ -3,7 +3,7 @@
 mod groups;
 mod kick;
 
-pub(crate) use groups::{coming_speed, kick_again, place_groups};
+pub(crate) use groups::{came_to, coming_speed, kick_again, place_groups};
 
 use super::inertia;
 use crate::base::geometry::Quaternion;

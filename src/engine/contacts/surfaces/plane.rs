@@ -178,8 +178,9 @@ impl ContactEntries for PlaneList<'_> {
         Some(CurrentContact { contact: geometry.contact, arms: [geometry.first_arm, 0.0], row })
     }
 
-    fn deepest(&self, state: &State, ahead: &SearchLimits, _entry: usize, met: &CurrentContact) -> Option<Contact> {
-        let (speed, boundary) = (self.plane.velocity - self.plane.conveying, self.surface.list(state).boundary);
-        ahead.at_boundary(self.law(), met.row, &met.contact, speed.length(), boundary)
+    fn deepest(&self, state: &State, ahead: &SearchLimits, entry: usize, met: &CurrentContact) -> Option<Contact> {
+        let (list, speed) = (self.surface.list(state), (self.plane.velocity - self.plane.conveying).length());
+        let particle = Vector::from(state.particles.velocity[list.particle[entry] as usize]);
+        ahead.at_boundary((self.law(), met.row, &met.contact), (particle, speed), list.boundary)
     }
 }

@@ -229,7 +229,7 @@ fn course(scene: &Scene) -> u64 {
             hashed.0.update(&number.to_bits().to_le_bytes());
         }
     }
-    let mut rest = SceneDraft { particles: Vec::new(), fingerprint: 0, ..SceneDraft::clone(scene) };
+    let mut rest = SceneDraft { particles: Vec::new(), fingerprint: 0, unread: Vec::new(), ..SceneDraft::clone(scene) };
     rest.run.end = None;
     rest.run.threads = None;
     rest.run.plane = None;

@@ -35,7 +35,7 @@ pub(super) fn put_newcomers(
             })
         });
         // No particle has an orientation yet.
-        here[there as usize - own] = newcomer.map(|newcomer| state.particles.add(&newcomer, 0, false));
+        here[there as usize - own] = newcomer.map(|newcomer| state.add_particle(&newcomer, 0, false));
     }
     put_clumps(scene, state, reached, (from, own, &mut here));
     let there = |place: usize| other.slot_of((own + place) as u32).is_some();

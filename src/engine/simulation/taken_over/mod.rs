@@ -154,6 +154,9 @@ fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Desc
             continue;
         };
         moved.displacement = other.displacement;
+        if scene.cell.is_some() {
+            moved.brought_back = other.brought_back;
+        }
         moved.rotation = other.rotation;
         moved.orientation = other.orientation;
         moved.start_orientation = other.orientation;
@@ -188,7 +191,10 @@ fn check_groups(scene: &Scene, state: &State, there: &[[f64; 4]]) -> Result<(), 
     for boundary in &scene.boundaries {
         for &member in boundary.shape.members() {
             let (now, then) = (state.particles.position[member as usize], there[member as usize]);
-            let way = (0..3).map(|axis| (now[axis] - then[axis]).powi(2)).sum::<f64>().sqrt();
+            let [[x, y, z, _], [a, b, c, _]] = [now, then];
+            let apart = Vector::new(x - a, y - b, z - c).length();
+            let in_cell = scene.cell.as_ref().map(|cell| cell.lattice.distance([x, y, z], [a, b, c]));
+            let way = in_cell.unwrap_or(apart);
             if way.is_nan() || way > IN_PLACE * now[3] {
                 let (boundary, id) = (boundary.name.clone(), scene.particles[member as usize].id.0);
                 return Err(RunError::GroupElsewhere { boundary, id, way });

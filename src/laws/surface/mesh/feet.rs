@@ -131,6 +131,10 @@ impl Features for Mesh {
     fn extent(&self, point: Vector) -> f64 {
         self.topology.vertices.iter().map(|vertex| (*vertex - point).length()).fold(0.0, f64::max)
     }
+
+    fn beside(&self, feature: u32, by: [i64; 3]) -> Option<u32> {
+        self.of_copy(feature, by)
+    }
 }
 
 impl Mesh {

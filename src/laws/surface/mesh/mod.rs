@@ -7,6 +7,7 @@ mod feet;
 #[cfg(test)]
 mod feet_tests;
 mod files;
+mod joint;
 mod keys;
 mod nodes;
 mod planes;
@@ -16,12 +17,14 @@ mod tree;
 
 use super::facets::Facets;
 use super::feet::Features;
-use super::{Shape, Surface};
+use super::{Copies, Repeated, Shape, Surface};
 use crate::base::number::Vector;
 use crate::base::quantity::MaterialIndex;
 use crate::base::words::counted;
 use edge::Edge;
 use face::Faces;
+use joint::Joint;
+pub(super) use joint::joined;
 pub(crate) use keys::Keys;
 pub use nodes::{Deforming, NodeWeights};
 use topology::Topology;
@@ -57,6 +60,8 @@ struct Mesh {
     closed: bool,
     /// Middle of the box around it \[m\].
     middle: Vector,
+    /// Of which copies of a surface it is joined.
+    joint: Option<Joint>,
 }
 
 impl Mesh {
@@ -76,6 +81,7 @@ impl Mesh {
             closed,
             middle: (Vector::from(low) + Vector::from(high)) * 0.5,
             topology,
+            joint: None,
         }
     }
 
@@ -212,5 +218,9 @@ impl Surface for Mesh {
 
     fn crack(&self, within: f64) -> Option<String> {
         faults::crack(&self.topology, within)
+    }
+
+    fn repeated(&self, copies: &Copies) -> Result<Repeated, [String; 2]> {
+        self.joined(copies).map(|mesh| Repeated::Joined(Shape::of(mesh)))
     }
 }

@@ -2,8 +2,7 @@
 
 use super::particles::ReadParticles;
 use super::raw_tables::RawTables;
-use crate::base::document::Mistake;
-use crate::base::document::{Document, Faults};
+use crate::base::document::{Faults, Mistake};
 use crate::base::quantity::{BoundaryIndex, SetIndex};
 use crate::laws::bond::creation::ListedPairs;
 use crate::laws::bond::keys::Keys;
@@ -14,28 +13,26 @@ use crate::scene::{Bond, Boundary, Cell, Particle, Run, SceneDraft, Step};
 /// All bond laws.
 pub(super) fn bonds(
     written: &RawTables,
-    document: &Document,
     source: &Source,
-    born: &ReadParticles,
+    (born, cell): (&ReadParticles, Option<&Cell>),
     boundaries: &[Boundary],
     run: &Run,
     faults: &mut Faults,
 ) -> Vec<Bond> {
-    let cell = written.cell.as_ref().and_then(|keys| keys.cell(&mut |_, _| {}));
     let mut bonds = Vec::new();
     for (name, keys) in &written.bonds {
         let table = format!("bond.{name}");
         given_step(keys, &table, run.step, faults);
-        let between = between((keys, &table), document, (written, boundaries), born, faults);
+        let between = between((keys, &table), (written, boundaries), born, faults);
         if between.is_some_and(|between| between.1.is_some()) && !keys.create.needs_distance() {
             faults.add(&table, "create", listed_at_plane());
             continue;
         }
-        let pairs = listed(keys, document, source, &table, born, faults);
+        let pairs = listed(keys, source, &table, born, faults);
         contradictions(keys, run, &table, faults);
         if let (Some((between, plane)), Some(pairs)) = (between, pairs) {
             let bond = Bond { name: name.clone(), keys: keys.clone(), between, plane, pairs };
-            outside_sets(&bond, &table, (&born.particles, cell.as_ref()), faults);
+            outside_sets(&bond, &table, (&born.particles, cell), faults);
             bonds.push(bond);
         }
     }
@@ -86,19 +83,12 @@ fn given_step(keys: &Keys, table: &str, step: Step, faults: &mut Faults) {
 /// The two particle sets that are bonded; at a plane, the same set twice and the plane.
 fn between(
     (keys, table): (&Keys, &str),
-    document: &Document,
     (written, boundaries): (&RawTables, &[Boundary]),
     born: &ReadParticles,
     faults: &mut Faults,
 ) -> Option<([SetIndex; 2], Option<BoundaryIndex>)> {
     // One with a mistake of its own is not there.
     let takes_bonds = |name: &str| boundaries.iter().find(|it| it.name == name).is_none_or(Boundary::takes_bonds);
-    // An array of two takes no notice of a third.
-    if document.has(&format!("{table}.between.3")) {
-        let (found, expected) = ("more than two names".to_owned(), "[\"a\", \"b\"]".to_owned());
-        faults.add(table, "between", Mistake::Unexpected { found, expected });
-        return None;
-    }
     let mut sets = [None; 2];
     let mut plane = None;
     for (name, place) in keys.between.iter().zip(&mut sets) {
@@ -133,7 +123,6 @@ fn between(
 /// The listed pairs, as indices of particles.
 fn listed(
     keys: &Keys,
-    document: &Document,
     source: &Source,
     table: &str,
     born: &ReadParticles,
@@ -146,10 +135,10 @@ fn listed(
     };
     let before = faults.count();
     let mut pairs = Vec::with_capacity(ids.len());
-    for (entry, pair) in (1..).zip(&ids) {
+    for pair in &ids {
         let index = |id: u32| born.particles.binary_search_by_key(&id, |particle| particle.id.0);
         let found = match pair.map(index) {
-            [Ok(a), Ok(b)] if a != b && !document.has(&format!("{table}.create.pairs.{entry}.3")) => {
+            [Ok(a), Ok(b)] if a != b => {
                 pairs.push([a as u32, b as u32]);
                 continue;
             }

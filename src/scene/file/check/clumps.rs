@@ -2,7 +2,8 @@
 
 use super::named_tables::Named;
 use super::place::Place;
-use super::set_reader::{ReadSet, SetReader, Unnumbered};
+use super::raw_tables::RawTables;
+use super::set_reader::{ReadSet, SetReader, Unnumbered, of_all};
 use crate::base::document::{Faults, Mistake};
 use crate::base::quantity::{MaterialIndex, Positive};
 use crate::scene::clump::{ClumpKeys, OrientationKey, spheres, unit};
@@ -91,9 +92,9 @@ impl SetReader<'_> {
         let by_sphere = |column: Vec<f64>| rows.iter().map(|&row| column[row]).collect();
         let columns = columns.into_iter().map(|(name, column)| (name, by_sphere(column))).collect();
         let place = match place {
-            Place::File(file, lines) => {
+            Place::File(file, lines, around) => {
                 let lines = if lines.is_empty() { lines } else { rows.iter().map(|&row| lines[row]).collect() };
-                Place::File(file, lines)
+                Place::File(file, lines, around)
             }
             other => other,
         };
@@ -119,7 +120,7 @@ impl SetReader<'_> {
         }
         let bounding = match (lattice, packing) {
             (Some(lattice), _) => packing::lattice(lattice),
-            (_, Some(packing)) => packing::packing(packing, self.seed, &self.table, tell),
+            (_, Some(packing)) => packing::packing(packing, self.cell, (self.seed, &self.table), tell),
             (None, None) => Ok(Vec::new()),
         };
         let bounding = bounding.map_err(|(key, mistake)| faults.add(&self.table, key, mistake)).ok()?;
@@ -156,6 +157,7 @@ impl SetReader<'_> {
 
     /// Clumps written one by one.
     fn listed_clumps(&self, list: &[ListEntry], fallback: Option<MaterialIndex>, faults: &mut Faults) -> Vec<Placed> {
+        self.tell_unread(|key| of_all(list, key), faults);
         let mut placed = Vec::new();
         for (row, entry) in list.iter().enumerate() {
             let at = |key: &str| format!("list.{}.{key}", row + 1);
@@ -223,6 +225,14 @@ impl SetReader<'_> {
             faults.in_file(file, Some(1), &self.table, "", mistake);
             return None;
         }
+        let own = |key: &str| match key {
+            "material" => !rows.label.is_empty(),
+            "density" => column("density").is_some(),
+            "velocity" => ["vx", "vy", "vz"].into_iter().any(|name| column(name).is_some()),
+            "angular_velocity" => ["wx", "wy", "wz"].into_iter().any(|name| column(name).is_some()),
+            _ => turned.iter().all(Option::is_some),
+        };
+        self.tell_unread(own, faults);
         let mut placed = Vec::with_capacity(rows.count);
         for row in 0..rows.count {
             let material = by_label[if rows.label.is_empty() { 0 } else { rows.label[row] as usize }]?;
@@ -258,7 +268,35 @@ impl SetReader<'_> {
             placed.push(one);
         }
         let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
-        Some((placed, Place::File(file.to_owned(), rows.lines), columns))
+        Some((placed, Place::File(file.to_owned(), rows.lines, rows.around), columns))
+    }
+}
+
+/// Tells clumps that nothing places or lets come, and what all that do say themselves.
+pub(super) fn tell_unread(written: &RawTables, faults: &mut Faults) {
+    for (name, keys) in &written.clumps {
+        let table = format!("clump.{name}");
+        let sets: Vec<_> = (written.particles.iter().map(|(_, set)| set))
+            .filter(|set| set.clump.as_deref() == Some(name.as_str()))
+            .collect();
+        let inflows: Vec<_> = (written.insertions.iter().map(|(_, keys)| keys))
+            .filter(|keys| keys.sizes.clumps().contains(name))
+            .collect();
+        if sets.is_empty() && inflows.is_empty() {
+            faults.unread(&table, "spheres", "no set or insertion has such clumps");
+            continue;
+        }
+        let listed = |set: &ParticlesTable, key: &str| set.list.as_ref().is_some_and(|list| of_all(list, key));
+        let material = |set: &&ParticlesTable| set.material.is_some() || listed(set, "material");
+        let density = |set: &&ParticlesTable| set.density.is_some() || listed(set, "density");
+        let bring_material = inflows.iter().all(|keys| keys.material.is_some());
+        let own = [
+            ("material", keys.material.is_some() && sets.iter().all(material) && bring_material),
+            ("density", keys.density.is_some() && sets.iter().all(density) && inflows.is_empty()),
+        ];
+        for (key, _) in own.into_iter().filter(|(_, own)| *own) {
+            faults.unread(&table, key, "all that place such clumps have their own");
+        }
     }
 }
 

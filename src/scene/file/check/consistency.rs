@@ -3,11 +3,12 @@
 use super::bonded_pairs::{Bonded, idle};
 use super::finding::Finding;
 use crate::base::document::Mistake;
+use crate::base::quantity::ParticleId;
 use crate::laws::bond::creation::ContactPolicy;
 use crate::laws::contact::{Law, MaterialPair, Missing};
 use crate::scene::cell::with_images;
 use crate::scene::packing::overlaps::for_each_overlap;
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, SceneDraft, plane_objections};
+use crate::scene::{AxisMotion, Boundary, ContactLaw, Outside, Particle, Probe, Probed, SceneDraft, plane_objections};
 use std::collections::BTreeSet;
 
 /// Whether each two materials that can touch have a law, and the law its properties.
@@ -114,7 +115,7 @@ pub(super) fn places(scene: &SceneDraft) -> Vec<Finding> {
 fn looks(scene: &SceneDraft) -> Vec<Finding> {
     let sets = scene.sets.len();
     let probes = scene.probes.iter().filter_map(|probe| {
-        let (key, mistake) = probe.objection(&scene.particles, sets)?;
+        let (key, mistake) = probe.objection(&scene.particles, sets).or_else(|| of_one_clump(scene, probe))?;
         Some(Finding::at(format!("probe.{}", probe.name), key, mistake))
     });
     let derived =
@@ -127,6 +128,23 @@ fn looks(scene: &SceneDraft) -> Vec<Finding> {
             Finding::at(format!("derived.{}", derived.name), key, mistake)
         });
     probes.chain(derived).collect()
+}
+
+/// What speaks against a probe of a contact that never comes: of two spheres of one clump.
+fn of_one_clump(scene: &SceneDraft, probe: &Probe) -> Option<(&'static str, Mistake)> {
+    let Probed::Contact(ids) = probe.of else { return None };
+    let clump = |id: ParticleId| {
+        let place = scene.particles.binary_search_by_key(&id.0, |particle| particle.id.0).ok()? as u32;
+        let behind = scene.clumps.partition_point(|clump| clump.first <= place);
+        let clump = behind.checked_sub(1)?;
+        let of = &scene.clumps[clump];
+        (place - of.first < scene.clump_shapes[of.shape as usize].spheres.len() as u32).then_some(clump)
+    };
+    let [a, b] = ids.map(clump);
+    (a.is_some() && a == b).then(|| {
+        let found = format!("{} and {} of one clump", ids[0].0, ids[1].0);
+        ("contact", Mistake::Unexpected { found, expected: "two particles that can touch".to_owned() })
+    })
 }
 
 /// Spacing of numbers at a particle over its radius, above which its place is too coarse to say what it touches.
@@ -175,13 +193,14 @@ fn outside(scene: &SceneDraft, findings: &mut Vec<Finding>) {
 fn surfaces(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     let permitted = scene.run.max_overlap;
     let fixed_groups = fixed_groups(scene);
+    let in_cell = |place: [f64; 3]| scene.cell.map_or(place, |cell| cell.lattice.brought_back(place));
     for boundary in &scene.boundaries {
         let Some(material) = boundary.shape.material() else { continue };
         let fixed = is_fixed(boundary);
         let name = &boundary.name;
         let (mut behind, mut deep) = ((0.0, 0, 0), (0.0, 0, 0));
         for (index, particle) in scene.particles.iter().enumerate() {
-            let Some(distance) = boundary.shape.distance(particle.position.into()) else { continue };
+            let Some(distance) = boundary.shape.distance(in_cell(particle.position).into()) else { continue };
             let overlap = 1.0 - distance / particle.radius;
             if distance < 0.0 {
                 note(&mut behind, -distance, particle.id.0);
@@ -254,12 +273,13 @@ fn overlaps(scene: &SceneDraft, findings: &mut Vec<Finding>) {
     let originals = with_images(scene, &mut spheres, |radius| radius + largest);
     let permitted = scene.run.max_overlap;
     let bonded = Bonded::of(scene);
-    let mut worst: Option<(f64, u32, u32)> = None;
+    let mut worst: Option<(f64, u32, u32, bool)> = None;
     let mut count = 0;
     for_each_overlap(&spheres, |i, j, overlap| {
         if i.min(j) as usize >= scene.particles.len() {
             return; // two images
         }
+        let across = i.max(j) as usize >= scene.particles.len();
         let (i, j) = (originals[i as usize], originals[j as usize]);
         let (i, j) = (i.min(j) as usize, i.max(j) as usize);
         let (a, b) = (&scene.particles[i], &scene.particles[j]);
@@ -273,19 +293,19 @@ fn overlaps(scene: &SceneDraft, findings: &mut Vec<Finding>) {
         }
         count += 1;
         // Ties go to the lower numbers, whatever the order of the search.
-        let this = (relative, a.id.0, b.id.0);
-        if worst.is_none_or(|(most, a, b)| relative > most || relative == most && (this.1, this.2) < (a, b)) {
+        let this = (relative, a.id.0, b.id.0, across);
+        if worst.is_none_or(|(most, a, b, _)| relative > most || relative == most && (this.1, this.2) < (a, b)) {
             worst = Some(this);
         }
     });
-    if let Some((overlap, a, b)) = worst {
+    if let Some((overlap, a, b, across)) = worst {
         let set = scene
             .particles
             .iter()
             .find(|particle| particle.id.0 == b)
             .and_then(|particle| scene.sets.get(particle.set.index()));
         let table = set.map_or("particles".to_owned(), |set| format!("particles.{set}"));
-        let mistake = Mistake::Overlap { a, b, overlap, permitted, more: count - 1 };
+        let mistake = Mistake::Overlap { a, b, overlap, permitted, across, more: count - 1 };
         findings.push(Finding::at(table, "", mistake));
     }
 }

@@ -26,9 +26,10 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Accuracy, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{Accuracy, Cell, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
 use crate::scene::{cell, clump};
 use finding::Finding;
+use particles::ReadParticles;
 use raw_tables::RawTables;
 
 /// The scene that a source describes. Mistakes found so far are in `faults`.
@@ -49,15 +50,15 @@ pub(super) fn scene(
     let laws = contacts::laws(&written.contacts, &materials, run.scheme, &mut faults);
     let born = particles::particles(&written, source, &materials, &mut faults, tell);
     faults.so_far()?;
+    let cell = cell_of(&written, &born, &mut faults);
     let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
-    let bonds = bonds::bonds(&written, document, source, &born, &boundaries, &run, &mut faults);
+    let bonds = bonds::bonds(&written, source, (&born, cell.as_ref()), &boundaries, &run, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
-    let cell = written.cell.as_ref().and_then(|keys| keys.cell(&mut |key, mistake| faults.add("cell", key, mistake)));
     let (probes, derived) = looks(&written, &born.sets, &mut faults);
     let mut draft = SceneDraft {
         about: written.about,
@@ -86,17 +87,34 @@ pub(super) fn scene(
         output: written.output,
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
+        unread: faults.all_unread().to_vec(),
     };
     draft.parameters = parameters::of_scene(&draft, document);
-    relations(&draft, document, &mut faults);
+    relations(&mut draft, document, &mut faults);
     faults.finish().map(|()| Scene::of_checked(draft))
+}
+
+/// `[cell]`, beside the boxes of files.
+fn cell_of(written: &RawTables, born: &ReadParticles, faults: &mut Faults) -> Option<Cell> {
+    let from_file = born.boxes.first().map(|(.., around)| around.lattice);
+    let mut report = |key: &str, mistake| faults.add("cell", key, mistake);
+    let cell = written.cell.as_ref().and_then(|keys| keys.cell(from_file, &mut report));
+    if written.cell.is_some() && cell.is_none() {
+        return None;
+    }
+    for (table, file, around) in &born.boxes {
+        if let Some([found, expected]) = cell::box_objection(cell.as_ref(), around) {
+            faults.in_file(file, Some(around.line), table, "", Mistake::Unexpected { found, expected });
+        }
+    }
+    cell
 }
 
 impl SceneDraft {
     /// The scene, if it can be run: every number is one that its key takes, every index points at something, laws have their
     /// properties, particles are where they may be, boundaries can do what they are to do. Otherwise all mistakes, each with the table
     /// and the key that a scene file would have it in.
-    pub fn build(self) -> Result<Scene, SceneErrors> {
+    pub fn build(mut self) -> Result<Scene, SceneErrors> {
         let document = Document::parse("", "")?;
         let mut faults = Faults::new(&document);
         values::check(&self, &mut faults);
@@ -108,19 +126,21 @@ impl SceneDraft {
         boundaries::check(&self, &mut faults);
         bonds::check(&self, &mut faults);
         motion::damping(&self.boundaries, &self.damping, &mut faults);
-        relations(&self, &document, &mut faults);
+        relations(&mut self, &document, &mut faults);
         faults.finish().map(|()| Scene::of_checked(self))
     }
 }
 
 /// Reports what the parts of a scene are not to each other.
-fn relations(draft: &SceneDraft, document: &Document, faults: &mut Faults) {
+fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
+    let repeated = cell::repeat_surfaces(draft);
+    let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
     }
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
-    let others = cell::objections(draft).into_iter().chain(clump::objections(draft));
+    let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);

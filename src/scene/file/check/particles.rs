@@ -9,8 +9,9 @@ use crate::base::document::Mistake;
 use crate::base::quantity::{ParticleId, SetIndex};
 use crate::laws::contact::Material;
 use crate::scene::Source;
+use crate::scene::cell::fault_of;
 use crate::scene::file::tables::ParticlesTable;
-use crate::scene::import::REPORTED;
+use crate::scene::import::{FileBox, REPORTED};
 use crate::scene::packing::PackingProgress;
 use crate::scene::{Clump, ClumpShape, Particle, Run, clump};
 use std::collections::BTreeMap;
@@ -30,6 +31,8 @@ pub(super) struct ReadParticles {
     pub(super) sets: Vec<String>,
     /// Columns of each set that damping asks for.
     pub(super) columns: Vec<BTreeMap<String, Vec<f64>>>,
+    /// Boxes that files say: table, file, box.
+    pub(super) boxes: Vec<(String, String, FileBox)>,
 }
 
 /// Reads all sets.
@@ -45,6 +48,8 @@ pub(super) fn particles(
         .iter()
         .filter_map(|(_, damping)| damping.scale.as_ref().and_then(|scale| scale.column.clone()))
         .collect();
+    let cell = written.cell.as_ref().and_then(|keys| keys.cell(None, &mut |_, _| {})).map(|cell| cell.lattice);
+    let cell = cell.filter(|lattice| fault_of(lattice).is_none());
     let seed = written.run.seed.unwrap_or(Run::default().seed);
     let shape = written.run.plane_particles.unwrap_or_default();
     let mut born = ReadParticles::default();
@@ -53,6 +58,7 @@ pub(super) fn particles(
     if faults.count() > before {
         return born;
     }
+    super::clumps::tell_unread(written, faults);
     let mut places = Vec::new();
     let mut newborn = Vec::new();
     for (index, (name, table)) in written.particles.iter().enumerate() {
@@ -62,12 +68,16 @@ pub(super) fn particles(
             set,
             written: table,
             materials,
+            cell,
             seed,
             shape,
             shapes: &born.shapes,
             keys: &written.clumps,
         };
         let (list, clumps, place, columns) = reader.read(source, &extra, faults, tell);
+        if let Place::File(file, _, Some(around)) = &place {
+            born.boxes.push((reader.table.clone(), file.clone(), *around));
+        }
         born.clumps.extend(clumps);
         newborn.extend((0..).zip(list));
         born.sets.push(name.clone());

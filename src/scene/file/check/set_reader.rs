@@ -5,6 +5,7 @@ use super::named_tables::Named;
 use super::place::Place;
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
+use crate::base::geometry::Lattice;
 use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
 use crate::laws::contact::Material;
 use crate::scene::Source;
@@ -35,6 +36,8 @@ pub(super) struct SetReader<'a> {
     pub(super) written: &'a ParticlesTable,
     /// All materials.
     pub(super) materials: &'a [Material],
+    /// The cell that repeats, if there is a sound one.
+    pub(super) cell: Option<Lattice>,
     /// The scene's seed.
     pub(super) seed: u64,
     /// What all particles are.
@@ -73,7 +76,7 @@ impl SetReader<'_> {
         }
         let spheres = match (lattice, packing) {
             (Some(lattice), _) => packing::lattice(lattice),
-            (_, Some(packing)) => packing::packing(packing, self.seed, &self.table, tell),
+            (_, Some(packing)) => packing::packing(packing, self.cell, (self.seed, &self.table), tell),
             (None, None) => Ok(Vec::new()),
         };
         match spheres {
@@ -143,6 +146,7 @@ impl SetReader<'_> {
     /// Particles written one by one.
     fn listed(&self, list: &[ListEntry], faults: &mut Faults) -> Vec<Unnumbered> {
         let fallback = self.fallback(faults);
+        self.tell_unread(|key| of_all(list, key), faults);
         let mut newborn = Vec::new();
         for (row, entry) in list.iter().enumerate() {
             let material = match &entry.material {
@@ -228,6 +232,13 @@ impl SetReader<'_> {
         let (position, radius) = (triple(["x", "y", "z"]), column("radius"));
         let (velocity, spin) = (triple(["vx", "vy", "vz"]), triple(["wx", "wy", "wz"]));
         let (id, density) = (column("id"), column("density"));
+        let own = |key: &str| match key {
+            "material" => !rows.label.is_empty(),
+            "density" => density.is_some(),
+            "velocity" => velocity.is_some(),
+            _ => spin.is_some(),
+        };
+        self.tell_unread(own, faults);
         for row in 0..rows.count {
             let material = materials[if rows.label.is_empty() { 0 } else { rows.label[row] as usize }];
             let (Some(material), Some(position), Some(radius)) = (material, position, radius) else { break };
@@ -250,7 +261,7 @@ impl SetReader<'_> {
             newborn.push(Unnumbered { id: number.map(|number| number as u32), is_of_clump: false, particle });
         }
         let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
-        (newborn, Vec::new(), Place::File(file.to_owned(), rows.lines), columns)
+        (newborn, Vec::new(), Place::File(file.to_owned(), rows.lines, rows.around), columns)
     }
 
     /// The material of each label of a file; of the set, if the file has none.
@@ -318,11 +329,37 @@ impl SetReader<'_> {
         super::contacts::material_index(self.materials, name, &self.table, key, faults)
     }
 
+    /// Tells keys that are for particles that have none of their own, where each has.
+    pub(super) fn tell_unread(&self, own: impl Fn(&str) -> bool, faults: &mut Faults) {
+        let ParticlesTable { material, density, velocity, angular_velocity, orientation, .. } = self.written;
+        let written = [
+            ("material", material.is_some()),
+            ("density", density.is_some()),
+            ("velocity", velocity.is_some()),
+            ("angular_velocity", angular_velocity.is_some()),
+            ("orientation", orientation.is_some()),
+        ];
+        for (key, _) in written.into_iter().filter(|(key, given)| *given && own(key)) {
+            faults.unread(&self.table, key, "each of its particles has its own");
+        }
+    }
+
     /// Neither the set nor its particles say what they are made of.
     pub(super) fn no_material(&self, faults: &mut Faults) {
         let expected = "the name of a [material] table".to_owned();
         faults.add(&self.table, "material", Mistake::Missing { expected });
     }
+}
+
+/// Whether all entries of a list have a key of their own.
+pub(super) fn of_all(list: &[ListEntry], key: &str) -> bool {
+    list.iter().all(|entry| match key {
+        "material" => entry.material.is_some(),
+        "density" => entry.density.is_some(),
+        "velocity" => entry.velocity.is_some(),
+        "angular_velocity" => entry.angular_velocity.is_some(),
+        _ => entry.orientation.is_some(),
+    })
 }
 
 /// Whether a number can be a particle's.

@@ -20,7 +20,7 @@ use crate::base::lanes::Width;
 use crate::base::number::Vector;
 use crate::engine::boundaries::passing::Passed;
 use crate::engine::contacts::batches::Entries;
-use crate::engine::state::WallContacts;
+use crate::engine::state::{IMAGE, WallContacts};
 use crate::laws::surface::{Feet, Foot, NO_PLANE, Saddle, TOGETHER};
 use at_feet::AtFeet;
 use columns::finish;
@@ -157,7 +157,8 @@ impl AtSurface {
         };
         if work.far {
             let touches = |slot: &usize| {
-                moved.owner[*slot] != boundary as u32 + 1 && passing.meet(work.particles.material[*slot], self.material)
+                ![boundary as u32 + 1, IMAGE].contains(&moved.owner[*slot])
+                    && passing.meet(work.particles.material[*slot], self.material)
             };
             let over = |slot: &usize| surface.is_over(way(*slot), moved.position[*slot][3]);
             return slots.filter(touches).find(over).map(|slot| slot as u32);

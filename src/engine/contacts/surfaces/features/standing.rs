@@ -69,7 +69,7 @@ impl Mobility {
 impl<'a> MovingSurface<'a> {
     /// A surface of features where its boundary stands.
     pub(super) fn of(features: &'a dyn Features, surface: &AtSurface, boundary: &BoundaryState) -> Self {
-        let frame = Frame::of(surface.reference, boundary.displacement.into(), boundary.orientation.0);
+        let frame = Frame::of(surface.reference, boundary.shift().into(), boundary.orientation.0);
         let spin = boundary.angular_velocity.into();
         let (pivot, turning) = (frame.pivot(), spin != Vector::zero());
         let (conveying, conveys) = (frame.outside(surface.conveying), surface.conveying != Vector::zero());

@@ -3,7 +3,7 @@
 use super::standing::{MovingSurface, SphereOnSurface};
 use super::{constant, parts};
 use crate::base::number::Vector;
-use crate::engine::contacts::ahead::{Link, SearchLimits};
+use crate::engine::contacts::ahead::{Kind, Link, SearchLimits};
 use crate::engine::contacts::batches::ContactGeometry;
 use crate::engine::contacts::encounters::Encounters;
 use crate::engine::contacts::records::{self, ContactRecord, Motion};
@@ -62,7 +62,8 @@ impl AtSurface {
         }
     }
 
-    /// Tells the stiffness of the contacts with features.
+    /// Tells the stiffness of the contacts with features, and of those to come where forces move the surface: a light one may meet many
+    /// particles at once.
     pub(in crate::engine::contacts::surfaces) fn stiffness_at_features(
         &self,
         state: &State,
@@ -72,20 +73,61 @@ impl AtSurface {
         let (list, law) = (self.list(state), &self.law.law);
         let bent = state.nodes_of(list.boundary as usize).map_or(0.0, |nodes| nodes.fastest);
         let speed = Vector::from(state.boundaries[list.boundary as usize].velocity).length() + bent;
-        self.each(state, Motion::Present, |entry, foot, _, ContactGeometry { contact, first_arm, .. }| {
-            // A saddle only takes away from what its faces have.
-            if foot.weight > 0.0 {
-                let row = self.row(state, list.particle[entry]);
-                let deep = ahead.at_boundary(law, row, contact, speed, list.boundary).unwrap_or(*contact);
-                let bodies = (list.particle[entry], None, Some(list.boundary));
+        let link =
+            |slot: u32, slope: f64, ContactGeometry { contact, first_arm, .. }: &ContactGeometry, touches: bool| {
+                let row = self.row(state, slot);
+                let particle = Vector::from(state.particles.velocity[slot as usize]);
+                let deepest = ahead.at_boundary((law, row, contact), (particle, speed), list.boundary);
+                let deep = deepest.or(touches.then_some(*contact))?;
+                let bodies = (slot, None, Some(list.boundary));
                 let mut link = Link::of_contact(bodies, (law, row), &deep, [*first_arm, 0.0]);
-                if foot.slope != 1.0 {
+                if slope != 1.0 {
                     link.stiffness[0] *= AROUND;
                     link.stiffness[1] += link.stiffness[0];
                 }
-                tell(link);
+                link.kind = if touches { Kind::Contact } else { Kind::ComingContact };
+                Some(link)
+            };
+        self.each(state, Motion::Present, |entry, foot, _, geometry| {
+            // A saddle only takes away from what its faces have.
+            if foot.weight > 0.0 {
+                link(list.particle[entry], foot.slope, geometry, true).into_iter().for_each(&mut *tell);
             }
         });
+        if !ahead.moves(list.boundary) {
+            return;
+        }
+        let standing = (&state.boundaries[list.boundary as usize], state.nodes_of(list.boundary as usize));
+        MovingSurface::with(self, standing, |at| {
+            let mut feet = Feet::default();
+            for (place, &slot) in list.near.particle.iter().enumerate() {
+                if list.particle.binary_search(&slot).is_err()
+                    && let Some((slope, geometry)) = self.nearest(&at, state, (place, slot), &mut feet)
+                {
+                    link(slot, slope, &geometry, false).into_iter().for_each(&mut *tell);
+                }
+            }
+        });
+    }
+
+    /// How a particle (slot) at a place of the list of near ones meets what is nearest to it, and the slope there; none where nothing is.
+    fn nearest(
+        &self,
+        at: &MovingSurface,
+        state: &State,
+        (place, slot): (usize, u32),
+        feet: &mut Feet,
+    ) -> Option<(f64, ContactGeometry)> {
+        let list = self.list(state);
+        let position = state.particles.position[slot as usize];
+        let (velocity, spin) = Motion::Present.of(state, slot);
+        feet.clear();
+        let reach = position[3] + state.neighbours.skin;
+        at.features.feet(at.frame.inside(Vector::from(position)), reach, parts(list, place), feet);
+        let nearest = feet.list.iter().filter(|foot| foot.weight > 0.0);
+        let foot = nearest.reduce(|near, next| if next.distance < near.distance { next } else { near })?;
+        let (row, constant) = (self.row(state, slot), constant(list, place));
+        Some((foot.slope, SphereOnSurface { at, body: [position, velocity, spin], row, constant }.meet(foot)))
     }
 
     /// Tells the contacts with features as they were in the last evaluation, after a time step of this length \[s\].
@@ -121,19 +163,10 @@ impl AtSurface {
         for (place, &slot) in list.near.particle.iter().enumerate() {
             let touches = || list.particle.binary_search(&slot).is_ok();
             let Some(meeting) = found.meeting(state, (slot, None), touches) else { continue };
-            let position = state.particles.position[slot as usize];
-            let (velocity, spin) = Motion::Present.of(state, slot);
-            feet.clear();
-            let reach = position[3] + state.neighbours.skin;
-            at.features.feet(at.frame.inside(Vector::from(position)), reach, parts(list, place), &mut feet);
-            let nearest = feet.list.iter().filter(|foot| foot.weight > 0.0);
-            let Some(foot) = nearest.reduce(|near, next| if next.distance < near.distance { next } else { near })
-            else {
-                continue;
-            };
-            let (row, constant) = (self.row(state, slot), constant(list, place));
-            let contact = SphereOnSurface { at, body: [position, velocity, spin], row, constant }.meet(foot).contact;
-            found.add(meeting, (law, row, &contact), state, (slot, None, Some(list.boundary)));
+            if let Some((_, geometry)) = self.nearest(at, state, (place, slot), &mut feet) {
+                let row = self.row(state, slot);
+                found.add(meeting, (law, row, &geometry.contact), state, (slot, None, Some(list.boundary)));
+            }
         }
     }
 
