@@ -5,6 +5,7 @@ use super::{
     non_spherical,
 };
 use crate::base::document::Mistake;
+use crate::base::geometry::Lattice;
 
 /// A line of text and its number.
 type Line<'a> = (usize, &'a str);
@@ -155,10 +156,16 @@ impl Snapshot<'_> {
         self.unscale(&columns, &mut numbers)?;
         rows.around = self.around()?;
         let flagged = self.unwrap(&columns, &mut numbers, rows.around.as_ref())?;
-        let unwrapped = |axis: &str| ["u", "su"].iter().any(|end| columns.contains(&format!("{axis}{end}").as_str()));
-        let repeats = rows.around.is_some_and(|around| around.is_periodic());
+        let unwrapped = axes(&columns, ["u", "su"]);
+        let lattice = rows.around.filter(|around| !flagged && around.is_periodic()).map(|around| around.lattice);
+        if let Some(lattice) = lattice {
+            self.expect_images(&columns, &numbers, unwrapped, &lattice)?;
+        }
         // Where nothing says how often a particle crossed, its place in the box is another one than that without the box.
-        let is_other = |column: &str| repeats && !flagged && is_wrapped(column) && unwrapped(&column[..1]);
+        let is_other = |column: &str| {
+            let axis = ["x", "y", "z"].iter().position(|axis| column.starts_with(axis));
+            lattice.is_some() && is_wrapped(column) && axis.is_some_and(|axis| unwrapped[axis].is_some())
+        };
         // Places as such are taken before those made of shares of the box, which have fewer digits.
         for scaled in [false, true] {
             for ((column, name), numbers) in columns.iter().zip(&names).zip(&mut numbers) {
@@ -246,7 +253,7 @@ impl Snapshot<'_> {
             return Err(vec![FileFault::at(line, "", Mistake::Unexpected { found, expected })]);
         };
         let lattice = Bounds { low, edges }.lattice(line)?;
-        let lattice = crate::base::geometry::Lattice { periodic: [x, y, z], ..lattice };
+        let lattice = Lattice { periodic: [x, y, z], ..lattice };
         Ok(Some(FileBox { lattice, is_told: true, line, is_crossed: false }))
     }
 
@@ -290,6 +297,44 @@ impl Snapshot<'_> {
         Ok(true)
     }
 
+    /// Refuses places in a box that are no images of those without it, and images of which a part is not told.
+    fn expect_images(
+        &self,
+        columns: &[&str],
+        numbers: &[Vec<f64>],
+        unwrapped: [Option<usize>; 3],
+        lattice: &Lattice,
+    ) -> Result<(), Vec<FileFault>> {
+        let refuse = |line: usize, found: String, expected: &str| {
+            Err(vec![FileFault::at(line, "", Mistake::Unexpected { found, expected: expected.to_owned() })])
+        };
+        let [Some(x), Some(y), Some(z)] = unwrapped else {
+            // An edge that leans leads along several axes at once.
+            let leans = lattice.edges[1][0] != 0.0 || lattice.edges[2][0] != 0.0 || lattice.edges[2][1] != 0.0;
+            return if leans && unwrapped != [None; 3] {
+                refuse(
+                    self.columns.0,
+                    "one or two of them".to_owned(),
+                    "all of xu, yu, zu of a box that leans, or none",
+                )
+            } else {
+                Ok(())
+            };
+        };
+        let [Some(u), Some(v), Some(w)] = axes(columns, ["", "s"]) else { return Ok(()) };
+        let all = [x, y, z, u, v, w].iter().map(|&column| largest(&numbers[column])).fold(0.0, f64::max);
+        let tolerance = DIGITS * (all + largest(&lattice.origin) + largest(lattice.edges.as_flattened()));
+        for (row, (line, _)) in self.atoms.iter().enumerate() {
+            let (free, inside) =
+                ([x, y, z].map(|column| numbers[column][row]), [u, v, w].map(|column| numbers[column][row]));
+            if lattice.nearest(free, inside).iter().any(|part| part.abs() > tolerance) {
+                let found = format!("{free:?} without the faces and {inside:?} in the box");
+                return refuse(*line, found, "places that are whole edges of the box apart");
+            }
+        }
+        Ok(())
+    }
+
     /// The box of these shares: where it begins, and its three edges.
     fn edges(&self) -> Option<([f64; 3], [[f64; 3]; 3])> {
         let bound = |axis: usize, place: usize| -> Option<f64> {
@@ -324,30 +369,35 @@ impl Snapshot<'_> {
             return refuse("no bounds of the box", "a lower and an upper one");
         };
         let tilted = edges[1][0] != 0.0 || edges[2][0] != 0.0 || edges[2][1] != 0.0;
-        let shares =
-            ["x", "y", "z"].map(|axis| columns.iter().position(|column| is_scaled(column) && column.starts_with(axis)));
-        let [x, y, z] = match shares {
-            [Some(x), Some(y), Some(z)] => [x, y, z],
-            _ if tilted => return refuse("a tilted box without all of xs, ys, zs", "all three, or x y z"),
-            shares => {
+        for shares in ["s", "su"].map(|end| axes(columns, [end; 2])) {
+            let [Some(x), Some(y), Some(z)] = shares else {
+                if tilted && shares != [None; 3] {
+                    return refuse("a tilted box without all of xs, ys, zs", "all three, or x y z");
+                }
                 for (axis, column) in shares.into_iter().enumerate() {
                     let Some(column) = column else { continue };
                     numbers[column].iter_mut().for_each(|share| *share = low[axis] + *share * edges[axis][axis]);
                 }
-                return Ok(());
-            }
-        };
-        for row in 0..self.atoms.len() {
-            let share = [x, y, z].map(|column| numbers[column][row]);
-            for (axis, column) in [x, y, z].into_iter().enumerate() {
-                // Shares of the axis itself come first: an upright box gives the same bits as one axis alone.
-                let own = low[axis] + share[axis] * edges[axis][axis];
-                let tilts = (axis + 1..3).map(|edge| share[edge] * edges[edge][axis]);
-                numbers[column][row] = tilts.fold(own, |sum, tilt| sum + tilt);
+                continue;
+            };
+            for row in 0..self.atoms.len() {
+                let share = [x, y, z].map(|column| numbers[column][row]);
+                for (axis, column) in [x, y, z].into_iter().enumerate() {
+                    // Shares of the axis itself come first: an upright box gives the same bits as one axis alone.
+                    let own = low[axis] + share[axis] * edges[axis][axis];
+                    let tilts = (axis + 1..3).map(|edge| share[edge] * edges[edge][axis]);
+                    numbers[column][row] = tilts.fold(own, |sum, tilt| sum + tilt);
+                }
             }
         }
         Ok(())
     }
+}
+
+/// Where the columns of the three axes stand that end in one of these ways.
+fn axes(columns: &[&str], ends: [&str; 2]) -> [Option<usize>; 3] {
+    ["x", "y", "z"]
+        .map(|axis| columns.iter().position(|column| column.strip_prefix(axis).is_some_and(|end| ends.contains(&end))))
 }
 
 /// Names the columns as the file does.

@@ -509,6 +509,8 @@ mod tests {
             ("xsu ysu zsu", "3.125 -0.5 0.75"),
             ("x y z xu yu zu", "0.5 1 1.5 6 -1 1.5"),
             ("xu yu zu x y z ix iy iz", "6 -1 1.5 0.5 1 1.5 3 -1 0"),
+            ("xs ys zs xsu ysu zsu", "0.125 0.5 0.75 3.125 -0.5 0.75"),
+            ("xs ys zs xu yu zu", "0.125 0.5 0.75 6 -1 1.5"),
         ] {
             let rows = read(columns, line).unwrap_or_else(|faults| panic!("{columns}: {faults}"));
             assert_eq!(place(&rows, 0), unwrapped, "{columns}");
@@ -521,6 +523,10 @@ mod tests {
             ("x y z ix iy iz", "0.5 1 1.5 0 0 1", "a particle that crossed a face"),
             ("x y z ix", "0.5 1 1.5 1", "ix without iy and iz"),
             ("xu yu zu x y z ix iy iz", "6 -1 1.5 0.5 1 1.5 2 -1 0", "of x and "),
+            ("xu yu zu x y z", "6.1 -1 1.5 0.5 1 1.5", "whole edges of the box apart"),
+            ("xu yu zu x y z", "6 -1 3.5 0.5 1 1.5", "whole edges of the box apart"),
+            ("x yu z", "0.5 -1 1.5", "all of xu, yu, zu of a box that leans"),
+            ("xs ysu zs", "0.125 -0.5 0.75", "all three"),
         ] {
             let found = read(columns, line).unwrap_err();
             assert!(found.contains(part), "{found}");
