@@ -45,15 +45,18 @@ def course(axes, others, found):
     axes.legend(frameon=False)
 
 
-def over_the_step(axes, found, figure, range_of_others, label):
+def over_the_step(axes, found, figure, range_of_others, of):
     """A figure of the ball over the part of the stable step that a time step takes, beside the other programs."""
     low, high = min(range_of_others), max(range_of_others)
-    axes.axhspan(1e3 * low, 1e3 * high, color=OTHERS, alpha=0.4, linewidth=0, label="range of the eight programs")
+    axes.axhspan(1e3 * low, 1e3 * high, color=OTHERS, alpha=0.4, linewidth=0, label="means of the eight programs")
     beds = sorted({(seed, friction) for seed, friction, *_ in found})
     for number, bed in enumerate(beds):
         rows = sorted((row[2], 1e3 * figure(row[3])) for row in found if row[:2] == bed and row[2])
         if rows:
             label = None if number else "cograin, a line for each bed"
             axes.plot(*zip(*rows, strict=True), "o-", color=OWN, markersize=4, linewidth=1, label=label)
-    axes.set(xscale="log", xlabel="time step over the stable one (safety)", ylabel=label)
+    axes.set(xscale="log", xlabel="time step over the stable one (safety)", ylabel=of)
+    shown = sorted({row[2] for row in found if row[2]})
+    axes.set_xticks(shown, [f"{safety:g}" for safety in shown])
+    axes.minorticks_off()
     axes.legend(frameon=False)
