@@ -275,6 +275,31 @@ fn a_rigid_body_that_flies_and_turns_through_the_faces_does_what_it_does_in_the_
     assert!(assert_alike(closed, open, 6, 1e-9) >= 4);
 }
 
+#[test]
+fn the_books_of_a_rigid_body_astride_a_face_close_and_its_stable_step_is_that_of_one_that_is_not() {
+    let text = |shift: f64| {
+        let mut list = vec![[[0.022 + shift, 0.0215, 0.013], [0.1, 0.0, -1.0], [0.0; 3]]];
+        for [x, z] in [[0.0, 0.0], [0.005, 0.002]] {
+            list.push([[0.0175 + x + shift, 0.02, 0.0029 + z], [0.3, 0.0, -1.0], [0.0; 3]]);
+        }
+        let group = "[boundary.body]\nparticles = { ids = [2, 3] }\n\
+                     motion = { free = [\"x\", \"y\", \"z\", \"rotation.x\", \"rotation.y\", \"rotation.z\"] }\n\
+                     [boundary.floor]\nmaterial = \"glass\"\nplane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }\n";
+        let edges = [[EDGE, 0.0, 0.0], [0.0, EDGE, 0.0], [0.0, 0.0, EDGE]];
+        scene(&list, &(group.to_owned() + &cell(edges, "[\"x\", \"y\"]")))
+    };
+    let inside = start_with(&text(0.0), Files::new());
+    for shift in [-0.0222, 0.02, 1.02] {
+        let mut astride = start_with(&text(shift), Files::new());
+        let (stable, expected) = (astride.stable_step(), inside.stable_step());
+        assert!((stable / expected - 1.0).abs() < 1e-9, "{shift}: {stable} {expected}");
+        astride.advance(0.02).unwrap();
+        let ledger = astride.state().ledger.as_ref().unwrap();
+        let residual = astride.energy_residual().unwrap();
+        assert!(residual.abs() < 1e-12 * ledger.turnover, "{shift}: {residual} of {}", ledger.turnover);
+    }
+}
+
 /// A bed on a mesh that goes on, between a group and a plate that presses.
 fn bed(threads: usize) -> (String, Files) {
     let mut list = Vec::new();

@@ -120,7 +120,7 @@ impl Motion {
             }
         } else if let Some(group) = group {
             let moved = &state.boundaries[group];
-            let arm = Vector::from(particles.position[original]) - moved.pivot.into();
+            let arm = Vector::from(state.unwrapped(original)) - moved.pivot.into();
             let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
             for axis in 0..3 {
                 velocity[axis] -= moved.inertial.kick[axis] + turned[axis];

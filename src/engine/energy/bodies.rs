@@ -2,6 +2,7 @@
 
 use crate::base::number::Vector;
 use crate::engine::boundaries::RigidBody;
+use crate::engine::boundaries::rigid_body::came_to;
 use crate::engine::integration::Fields;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{BoundaryState, Particles, State};
@@ -12,12 +13,12 @@ pub(super) type OnBodies = [Vec<[f64; 6]>; Source::PASSES];
 
 /// Notes the loads on the spheres of bodies so far, of which the last are of this kind.
 pub(super) fn note(state: &mut State, bodies: &[Option<RigidBody>], source: Source) {
-    let State { particles, boundaries, ledger: Some(ledger), .. } = state else { return };
+    let State { particles, boundaries, cell, ledger: Some(ledger), .. } = state else { return };
     let of_body = |(body, moved): (&Option<RigidBody>, &BoundaryState)| {
         let (mut force, mut moment) = (Vector::zero(), Vector::zero());
         for &member in body.iter().filter(|body| body.is_free()).flat_map(|body| &body.members) {
             let slot = particles.slot[member as usize] as usize;
-            let arm = Vector::from(particles.position[slot]) - moved.pivot.into();
+            let arm = came_to(cell.as_ref(), member, Vector::from(particles.position[slot])) - moved.pivot.into();
             let load = Vector::from(particles.force[slot]);
             force += load;
             moment += arm.cross(load) + particles.torque[slot].into();

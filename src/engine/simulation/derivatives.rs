@@ -7,6 +7,7 @@
 use super::{RunError, Simulation};
 use crate::base::number::Vector;
 use crate::base::quantity::BoundaryIndex;
+use crate::engine::boundaries::rigid_body::came_to;
 use crate::engine::state::contacts::TOUCHING;
 use crate::engine::state::ledger::Source;
 
@@ -215,8 +216,10 @@ impl Simulation {
         };
         for pass in self.passes.iter().filter(|pass| pass.source() == Source::Walls) {
             pass.contacts(state, state.clock.last_step, &mut |record| {
-                if record.boundary == Some(boundary.0) || carried(particles.slot[record.first as usize]) {
+                if record.boundary == Some(boundary.0) {
                     meet(record.overlap, record.point.into());
+                } else if carried(particles.slot[record.first as usize]) {
+                    meet(record.overlap, came_to(state.cell.as_ref(), record.first, record.point.into()));
                 }
             });
         }
@@ -227,7 +230,8 @@ impl Simulation {
                     if carried(first) != carried(second) {
                         let [one, other] = [first, second].map(|slot| particles.position[slot as usize]);
                         let apart = (Vector::from(one) - Vector::from(other)).length();
-                        meet(one[3] + other[3] - apart, one.into());
+                        let member = particles.original(if carried(first) { first } else { second });
+                        meet(one[3] + other[3] - apart, state.unwrapped(member as usize).into());
                     }
                 }
             }

@@ -366,12 +366,19 @@ impl<'a> Network<'a> {
         let particles = &self.state.particles;
         let centre = |slot: u32| {
             let slot = Some(slot & !HELD).filter(|slot| (*slot as usize) < particles.len())?;
-            Some(particles.position[particles.original(slot) as usize])
+            Some(particles.original(slot) as usize)
         };
         // A surface is touched by the particle at the other end; what holds it to the ground acts at its point of reference.
         let [own, other] = [element.slots[end], element.slots[1 - end]];
-        let Some(centre) = centre(own).or_else(|| centre(other)) else { return Vector::zero() };
-        Vector::from(centre) - group.pivot + Vector::new(x, y, z) * f64::from(element.arms[end])
+        let in_cell = |slot: usize| Vector::from(particles.position[slot]);
+        let centre = match centre(own) {
+            Some(slot) => Vector::from(self.state.unwrapped(slot)),
+            None => match centre(other) {
+                Some(slot) => in_cell(slot),
+                None => return Vector::zero(),
+            },
+        };
+        centre - group.pivot + Vector::new(x, y, z) * f64::from(element.arms[end])
     }
 }
 
