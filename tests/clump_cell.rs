@@ -124,6 +124,32 @@ fn a_lattice_of_pairs_carries_the_stress_of_its_branches() {
 }
 
 #[test]
+fn a_region_of_clumps_carries_the_stress_of_its_branches_and_one_that_spins_freely_none() {
+    let [_, apart, long, wide] = PAIR;
+    let region = |from: [f64; 3]| {
+        let to = [from[0] + long, from[1] + wide, from[2] + wide];
+        format!("[region.all]\nbox = [{from:?}, {to:?}]\n")
+    };
+    for from in [[0.0, 0.0, 0.0], [0.4, 0.3, -7.1]] {
+        let simulation = lattice([1, 1, 1], [1.7, 0.97, 0.95], &region(from), "restitution = 1.0");
+        let carried = cograin::averages::carried(&simulation)[0];
+        let volume = long * wide * wide;
+        let expected = stress_of_pairs(0.0);
+        assert_near(&[0, 1, 2].map(|axis| carried[axis][axis] / volume), &expected[..3], 1e-12);
+    }
+    let mut spinning = start(&format!(
+        "[run]\nstep = 1e-4\n{LAW}\n[pair.a.a]\nrestitution = 1.0\n[clump.pair]\nspheres = [{{ position = [0.0, 0.0, 0.0], \
+         radius = 1.0 }}, {{ position = [{apart:?}, 0.0, 0.0], radius = 0.5 }}]\n[particles.p]\nmaterial = \"a\"\nclump = \"pair\"\n\
+         list = [{{ position = [0.1, 0.2, 0.3], velocity = [0.5, 0.0, 0.0], angular_velocity = [0.0, 3.0, 1.0] }}]\n\
+         [region.all]\nbox = [[-5.0, -5.0, -5.0], [5.0, 5.0, 5.0]]\n"
+    ));
+    spinning.advance(0.01).unwrap();
+    let content = cograin::averages::contents(&spinning)[0];
+    assert_near(&content.velocity, &[0.5, 0.0, 0.0], 1e-12);
+    assert!(content.temperature() < 1e-20, "{}", content.temperature());
+}
+
+#[test]
 fn the_tangent_of_a_lattice_of_pairs_is_the_derivative_of_its_stress() {
     for counts in [[1, 1, 1], [2, 1, 2]] {
         let simulation = lattice(

@@ -67,7 +67,8 @@ pub fn coordination(simulation: &Simulation) -> Vec<Coordination> {
 /// the region.
 ///
 /// f is the force on a particle, l the way to its centre from that of the other particle or, at a boundary, from the point of
-/// contact; s is the part of l that is inside.
+/// contact; s is the part of l that is inside. In a clump the way goes on between the centre of the sphere and the mass centre, where the
+/// forces on the clump meet.
 pub fn carried(simulation: &Simulation) -> Vec<Tensor> {
     let (regions, state) = (&simulation.scene().regions, simulation.state());
     let shifts: Vec<Vector> = regions.iter().map(|region| shift(region, state)).collect();
@@ -94,12 +95,28 @@ pub fn carried(simulation: &Simulation) -> Vec<Tensor> {
             centre(contact.first) - Vector::from(contact.normal) * apart
         }
     };
+    // From the centre of a sphere to the mass centre of its clump.
+    let inward = |index: u32| {
+        let clump = state.clump(state.particles.slot[index as usize] as usize)?;
+        Some(Vector::from(state.clumps.position[clump]) - centre(index))
+    };
+    let mut carry = |(first, to): (u32, Vector), (second, from): (Option<u32>, Vector), force: Vector| {
+        add(to, from, force);
+        if let Some(arm) = inward(first) {
+            add(to + arm, to, force);
+        }
+        if let Some(arm) = second.and_then(inward) {
+            add(from, from + arm, force);
+        }
+    };
     simulation.each_contact(&mut |contact| {
         let force = Vector::from(contact.normal) * contact.normal_force + contact.tangential_force.into();
         let other = contact.second.map_or_else(|| contact.point.into(), |other| touched(&contact, other));
-        add(centre(contact.first), other, force);
+        carry((contact.first, centre(contact.first)), (contact.second, other), force);
     });
-    simulation.each_bond(&mut |bond| add(bond.position.into(), bond.other.into(), bond.force.into()));
+    simulation.each_bond(&mut |bond| {
+        carry((bond.first, bond.position.into()), (bond.second, bond.other.into()), bond.force.into());
+    });
     sums
 }
 
@@ -129,6 +146,9 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
     let (scene, state) = (simulation.scene(), simulation.state());
     let (particles, shift, place) = (&state.particles, shift(region, state), place(region, simulation));
     let fullness: Vec<f64> = scene.clump_shapes.iter().map(ClumpShape::fullness).collect();
+    // A clump moves as a whole: how it turns is no part of the flow, as of a sphere.
+    let velocity =
+        |slot: usize| state.clump(slot).map_or(particles.velocity[slot], |clump| state.clumps.velocity[clump]);
     let mut inside = Vec::new();
     let mut content = Content::default();
     for slot in near::particles(state) {
@@ -142,7 +162,7 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
                 volume * state.clump(slot).map_or(1.0, |clump| fullness[state.clumps.shape[clump] as usize]);
             content.mass += mass;
             for axis in 0..3 {
-                content.velocity[axis] += mass * particles.velocity[slot][axis];
+                content.velocity[axis] += mass * velocity(slot)[axis];
             }
             inside.push((slot, mass));
         }
@@ -151,7 +171,7 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
         content.velocity = content.velocity.map(|momentum| momentum / content.mass);
     }
     for (slot, mass) in inside {
-        let apart = Vector::from(particles.velocity[slot]) - content.velocity.into();
+        let apart = Vector::from(velocity(slot)) - content.velocity.into();
         add_product(&mut content.fluctuation, apart * mass, apart);
     }
     content
