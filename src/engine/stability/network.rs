@@ -372,6 +372,8 @@ impl<'a> Network<'a> {
         let [own, other] = [element.slots[end], element.slots[1 - end]];
         let in_cell = |slot: usize| Vector::from(particles.position[slot]);
         let centre = match centre(own) {
+            // A clump is brought back into a cell with its mass centre, a group stays where its pivot is.
+            Some(slot) if self.state.clump(slot).is_some() => in_cell(slot),
             Some(slot) => Vector::from(self.state.unwrapped(slot)),
             None => match centre(other) {
                 Some(slot) => in_cell(slot),
