@@ -626,6 +626,12 @@ fn what_a_cell_does_not_go_with_is_refused() {
             "[force.push]\nparticles = { set = \"all\" }\nforce = [1.0, 0.0, 0.0]\n",
             "neither gravity nor [force]",
         ),
+        ("", "[region.r]\nbox = [[-1e9, 0.0, 0.0], [1e9, 1.0, 1.0]]\n", "found one over 2000000000.0 edges along x"),
+        (
+            "",
+            "[flow_meter.m]\npolygon = [[0.0, 0.0, 0.5], [11.0, 0.0, 0.5], [11.0, 1.0, 0.5]]\n",
+            "found one over 11.0 edges along x",
+        ),
         ("", "[domain]\nbox = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]\n", "no [domain] beside [cell]"),
     ] {
         let found = with(more, rest);

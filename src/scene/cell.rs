@@ -332,6 +332,16 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
             found.push(refused(format!("outlet.{}", outlet.name), "beyond", message));
         }
     }
+    let parts = (scene.regions.iter().map(|it| (format!("region.{}", it.name), it.shape.bounds())))
+        .chain(scene.meters.iter().map(|it| (format!("flow_meter.{}", it.name), it.polygon.bounds())));
+    for (table, corners) in parts {
+        let widths = cell.lattice.parts_of_box(corners).map(|[low, high]| high - low);
+        if let Some(edge) = (0..3).find(|&edge| cell.lattice.periodic[edge] && widths[edge] > MOST_IMAGES) {
+            let found_width = format!("one over {:.1} edges along {}", widths[edge], AXES[edge]);
+            let expected = format!("a part of space over no more than {MOST_IMAGES} edges of the cell");
+            found.push((table, "", Mistake::Unexpected { found: found_width, expected }));
+        }
+    }
     if cell.moves() && (scene.gravity != [0.0; 3] || !scene.forces.is_empty()) {
         let message = "expected neither gravity nor [force] beside a [cell] that is deformed, found one: they would work on its streaming motion";
         found.push(refused("cell".to_owned(), "motion", message));
