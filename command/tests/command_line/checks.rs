@@ -229,7 +229,7 @@ fn what_clumps_that_come_are_going_to_take_is_foretold() {
     let place = Place::new("coming");
     let scene = place.scene("end = 0.05", "frame_interval = 1e-2");
     let more = "[clump.pair]\nspheres = [{ position = [0.0, 0.0, 0.0], radius = 1e-3 }, { position = [1e-3, 0.0, 0.0], radius = 1e-3 }]\n\
-                [region.mouth]\nbox = [[0.1, 0.1, 0.1], [0.2, 0.2, 0.2]]\n\
+                [region.mouth]\nbox = [[-0.01, -0.01, 0.1], [0.02, 0.02, 0.2]]\n\
                 [insertion.feed]\nregion = \"mouth\"\nmaterial = \"glass\"\nsizes = { clump = \"pair\" }\ncount_rate = 40000.0\n";
     fs::write(&scene, fs::read_to_string(&scene).unwrap() + more).unwrap();
     let said = report(&scene);
