@@ -186,9 +186,13 @@ impl SizesKeys {
         let (shares, by_mass) = match (&self.by_number, &self.by_mass) {
             (Some(Shares(shares)), None) => (shares, false),
             (None, Some(Shares(shares))) => (shares, true),
-            _ => {
+            (None, None) => {
                 let expected = format!("by_number or by_mass = [..] gives the shares of the {all}");
                 return Err(("sizes", Mistake::Missing { expected }));
+            }
+            (Some(_), Some(_)) => {
+                let (found, expected) = ("both".to_owned(), "one of by_number and by_mass".to_owned());
+                return Err(("sizes", Mistake::Unexpected { found, expected }));
             }
         };
         if shares.len() != masses.len() {
