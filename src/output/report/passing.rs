@@ -87,7 +87,9 @@ fn count(scene: &Scene, insertion: &Insertion, duration: f64) -> f64 {
 fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
     let (scene, mut state) = (simulation.scene(), simulation.state().clone());
     let sizes = |state: &crate::engine::state::State| {
-        let frame = frames::particles(scene, (&state.particles, scene.has_clumps().then_some(&state.clumps)), None).encode()?.len();
+        let frame = frames::particles(scene, (&state.particles, scene.has_clumps().then_some(&state.clumps)), None)
+            .encode()?
+            .len();
         Ok([frame as f64, state.to_bytes(0).len() as f64])
     };
     let before = sizes(&state)?;
