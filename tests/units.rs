@@ -12,8 +12,8 @@ use cograin::quantity::BoundaryIndex;
 use cograin::simulation::Simulation;
 use toml::{Table, Value as Toml};
 
-/// The scales, as powers of two.
-const SCALES: [i32; 4] = [-30, -20, 6, 20];
+/// The scales, as powers of two: odd ones as well, for square roots.
+const SCALES: [i32; 4] = [-30, -19, 7, 20];
 
 /// 2 to this power, exactly.
 fn power(exponent: i32) -> f64 {

@@ -229,16 +229,10 @@ impl From<Failure> for Ending {
 /// with the same sub-models.
 pub fn main_with(models: &Models, library: &str) -> ExitCode {
     tell_of_full_files();
-    let Arguments { command, quiet } = Arguments::parse();
-    let ended = match command {
-        Command::New(arguments) => recipes::new(&arguments),
-        Command::Check(arguments) => check(models, &arguments, quiet),
-        Command::Run(arguments) => run(models, &arguments, quiet),
-        Command::Settle(arguments) => settle(models, &arguments, quiet),
-        Command::Export(arguments) => package(models, library, &arguments, quiet),
-        Command::Verify(arguments) => replay(&arguments),
-        Command::Chart(arguments) => chart::chart(models, &arguments),
-        Command::Completion(arguments) => shell::completion(&arguments),
+    let ended = match Arguments::try_parse() {
+        Ok(arguments) => obey(models, library, arguments),
+        Err(told) if told.use_stderr() => told.exit(),
+        Err(help) => written(help.print()),
     };
     let (status, reason) = match ended {
         Ok(()) => return ExitCode::SUCCESS,
@@ -250,15 +244,33 @@ pub fn main_with(models: &Models, library: &str) -> ExitCode {
     ExitCode::from(status)
 }
 
+/// Does what was asked for.
+fn obey(models: &Models, library: &str, Arguments { command, quiet }: Arguments) -> Result<(), Ending> {
+    match command {
+        Command::New(arguments) => recipes::new(&arguments),
+        Command::Check(arguments) => check(models, &arguments, quiet),
+        Command::Run(arguments) => run(models, &arguments, quiet),
+        Command::Settle(arguments) => settle(models, &arguments, quiet),
+        Command::Export(arguments) => package(models, library, &arguments, quiet),
+        Command::Verify(arguments) => replay(&arguments),
+        Command::Chart(arguments) => chart::chart(models, &arguments),
+        Command::Completion(arguments) => shell::completion(&arguments),
+    }
+}
+
 /// Prints a line.
 fn say(line: impl Display) -> Result<(), Ending> {
     say_as_it_is(format!("{}\n", printable(&line.to_string())).as_bytes())
 }
 
-/// Prints a text of the program's own. A reader that is gone does not want to know more; that a disk is full must be told.
+/// Prints a text of the program's own.
 fn say_as_it_is(text: &[u8]) -> Result<(), Ending> {
-    let mut output = std::io::stdout();
-    match output.write_all(text).and_then(|()| output.flush()) {
+    written(std::io::stdout().write_all(text))
+}
+
+/// What became of a text for the standard output. A reader that is gone does not want to know more; that a disk is full must be told.
+fn written(result: std::io::Result<()>) -> Result<(), Ending> {
+    match result.and_then(|()| std::io::stdout().flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Ending::failed(format_args!("the standard output cannot be written: {error}")))
         }

@@ -47,10 +47,14 @@ fn a_run_does_not_replace_what_no_run_has_written_nor_what_it_reads() {
 fn a_full_disk_behind_the_standard_output_is_a_failure() {
     let place = Place::new("full_output");
     let scene = place.scene("end = 1e-3\nstep = 1e-5", "");
-    let full = OpenOptions::new().write(true).open("/dev/full").unwrap();
-    let done = cograin(&[&"check", &scene]).stdout(full).stderr(Stdio::piped()).spawn().unwrap();
-    let said = complaint(&done.wait_with_output().unwrap(), 1);
-    assert!(said.contains("the standard output cannot be written"), "{said}");
+    let said = |arguments: &[&dyn AsRef<std::ffi::OsStr>]| {
+        let full = OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let done = cograin(arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap();
+        complaint(&done.wait_with_output().unwrap(), 1)
+    };
+    for said in [said(&[&"check", &scene]), said(&[&"--help"]), said(&[&"run", &"--help"]), said(&[&"--version"])] {
+        assert!(said.contains("the standard output cannot be written"), "{said}");
+    }
 }
 
 #[cfg(unix)]

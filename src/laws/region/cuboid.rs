@@ -18,10 +18,10 @@ impl Cuboid {
         (0..3).map(|axis| upper[axis] - lower[axis]).product()
     }
 
-    /// Whether a point is inside.
+    /// Whether a point is inside. The lower faces are, the upper ones are not.
     pub(super) fn holds(&self, point: Vector) -> bool {
         let [lower, upper] = self.corners;
-        point.to_array().iter().enumerate().all(|(axis, at)| (lower[axis]..=upper[axis]).contains(at))
+        point.to_array().iter().enumerate().all(|(axis, at)| (lower[axis]..upper[axis]).contains(at))
     }
 
     /// The centre of a sphere that lies whole inside, all places equally likely \[m\].

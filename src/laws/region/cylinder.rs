@@ -83,7 +83,7 @@ impl Cylinder {
     /// Whether a point is inside.
     pub(super) fn holds(&self, point: Vector) -> bool {
         let (height, away) = self.place(point);
-        (0.0..=self.length).contains(&height) && away.dot(away) <= self.radius * self.radius
+        (0.0..self.length).contains(&height) && away.dot(away) <= self.radius * self.radius
     }
 
     /// Volume of the part of a sphere that is inside \[m³\]: the integral along the axis of the areas that discs of the sphere have

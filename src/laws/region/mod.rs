@@ -89,10 +89,11 @@ impl Region {
 }
 
 /// Where a line is between two parallel planes: from this multiple of its way to that one. `height` is that of its beginning
-/// over the lower plane, `rise` what it gains along its way, `between` the distance of the planes \[m\].
+/// over the lower plane, `rise` what it gains along its way, `between` the distance of the planes \[m\]. The lower plane is inside, the
+/// upper one is not: of parts that fill space each line is in one.
 fn between_planes(height: f64, rise: f64, between: f64) -> [f64; 2] {
     if rise == 0.0 {
-        return if (0.0..=between).contains(&height) { EVERYWHERE } else { NOWHERE };
+        return if (0.0..between).contains(&height) { EVERYWHERE } else { NOWHERE };
     }
     let (low, high) = (-height / rise, (between - height) / rise);
     [low.min(high), low.max(high)]

@@ -172,10 +172,14 @@ fn a_line_through_a_cylinder_is_inside_between_its_mantle_and_its_ends() {
 }
 
 #[test]
-fn a_point_is_inside_with_its_surface() {
-    let region = cuboid([0.0; 3], [1.0; 3]);
-    assert!(region.holds(point(1.0, 0.0, 0.5)) && !region.holds(point(1.0 + 1e-15, 0.0, 0.5)));
+fn a_point_in_a_common_face_is_in_one_of_two_boxes() {
+    let [lower, upper] = [0.0, 1.0].map(|low| cuboid([0.0, 0.0, low], [1.0, 1.0, low + 1.0]));
+    let in_the_face = point(0.5, 0.0, 1.0);
+    assert!(!lower.holds(in_the_face) && upper.holds(in_the_face));
+    let share = |region: &Region| region.share_of_line(in_the_face, point(1.5, 0.0, 1.0));
+    assert_eq!([share(&lower), share(&upper)], [0.0, 0.5]);
+    assert!(!upper.holds(point(1.0, 0.0, 1.5)));
     let region = cylinder([0.0; 3], [0.0, 0.0, 2.0], 1.0);
-    assert!(region.holds(point(0.0, -1.0, 2.0)) && !region.holds(point(0.0, 0.0, 2.1)));
+    assert!(region.holds(point(0.0, -1.0, 0.0)) && !region.holds(point(0.0, -1.0, 2.0)));
     assert!(!region.holds(point(0.8, 0.8, 1.0)));
 }

@@ -177,46 +177,53 @@ impl Normal for Eepa {
 struct Branch<N> {
     /// F \[N\].
     force: N,
-    /// k_a where it was looked at, otherwise 0 \[N/m^χ\].
+    /// Above 0 where it was looked at and adheres.
     adhesion: N,
     /// δ_p \[m\].
     plastic: N,
 }
 
 impl<N: Number> Eepa<N> {
-    /// xⁿ of an x of 0 or above.
+    /// Whether n is 3/2.
     #[inline(always)]
-    fn raised(&self, x: N) -> N {
-        x * N::select(self.overlap_exponent.greater(N::splat(1.25)), x.sqrt(), N::splat(1.0))
+    fn is_bent(&self) -> N::Mask {
+        self.overlap_exponent.greater(N::splat(1.25))
     }
 
-    /// x^(1/n) of an x of 0 or above, by the effective radius: the cube root is that of a number without unit.
+    /// xⁿ R*^(2 − n) of an x of 0 or above \[m²\]: the root is that of an area, so that its bits do not depend on the unit.
     #[inline(always)]
-    fn root(&self, x: N, radius: N) -> N {
-        let x = x.max(N::zero());
-        let root = (x / (radius * radius.sqrt())).cube_root();
-        N::select(self.overlap_exponent.greater(N::splat(1.25)), radius * (root * root), x)
+    fn raised(&self, x: N, radius: N) -> N {
+        x * self.of_slope(x, radius)
     }
 
-    /// x^χ of an x of 0 or above.
+    /// x^(n − 1) R*^(2 − n) of an x of 0 or above \[m\].
     #[inline(always)]
-    fn adhering(&self, x: N) -> N {
+    fn of_slope(&self, x: N, radius: N) -> N {
+        N::select(self.is_bent(), (radius * x).sqrt(), radius)
+    }
+
+    /// The x that was raised to this area \[m\]: the cube root is that of a number without unit.
+    #[inline(always)]
+    fn lowered(&self, area: N, radius: N) -> N {
+        let length = area.max(N::zero()) / radius;
+        let root = (length / radius).cube_root();
+        N::select(self.is_bent(), radius * (root * root), length)
+    }
+
+    /// x^χ of an x of 0 or above, with χ = 3/2 times √R*.
+    #[inline(always)]
+    fn adhering(&self, x: N, radius: N) -> N {
         let (chi, square) = (self.adhesion_exponent, x * x);
         let high = N::select(chi.greater(N::splat(4.0)), square * square * x, square * x);
         let middle = N::select(chi.greater(N::splat(2.5)), high, square);
-        let low = N::select(chi.greater(N::splat(1.25)), x * x.sqrt(), x);
+        let low = N::select(chi.greater(N::splat(1.25)), x * (radius * x).sqrt(), x);
         N::select(chi.greater(N::splat(1.75)), middle, low)
     }
 
-    /// k₁ \[N/mⁿ\].
+    /// k₁ over R*^(2 − n) \[Pa\].
     #[inline(always)]
-    fn loading(&self, radius: N) -> N {
-        let scale = N::select(
-            self.overlap_exponent.greater(N::splat(1.25)),
-            N::splat(4.0 / 3.0) * radius.sqrt(),
-            radius + radius,
-        );
-        self.youngs_modulus * scale
+    fn loading(&self) -> N {
+        self.youngs_modulus * N::select(self.is_bent(), N::splat(4.0 / 3.0), N::splat(2.0))
     }
 
     /// Radius of the patch that a plastic overlap leaves \[m\].
@@ -236,23 +243,23 @@ impl<N: Number> Eepa<N> {
         /// Times that the plastic overlap is found anew where a contact reloads from the adhesion branch: the first
         /// is right but for rounding.
         const TURNS: usize = 8;
-        let (overlap, unloading) = (contact.overlap, loading * self.unloading_ratio);
-        let (raised, adhering) = (self.raised(overlap), self.adhering(overlap));
-        let (before_raised, before_adhering) = (self.raised(before), self.adhering(before));
+        let (overlap, radius, unloading) = (contact.overlap, contact.radius, loading * self.unloading_ratio);
+        let (raised, adhering) = (self.raised(overlap, radius), self.adhering(overlap, radius));
+        let (before_raised, before_adhering) = (self.raised(before, radius), self.adhering(before, radius));
         let virgin = loading * raised;
         let mut found =
             Branch { force: virgin, adhesion: N::zero(), plastic: plastic.max(self.plastic_ratio * overlap) };
         let mut open = N::splat(1.0).greater(N::zero());
         let mut turn = 0;
         while turn < TURNS && N::any(open) {
-            let pressed = unloading * self.raised(found.plastic);
+            let pressed = unloading * self.raised(found.plastic, radius);
             let elastic = unloading * raised - pressed;
             let (pull, half) = (self.pull_on_patch * self.patch(contact, found.plastic), N::splat(0.5) * pressed);
             let halved = pull.greater(half);
-            let least = self.root((pressed - pull) / unloading, contact.radius);
+            let least = self.lowered((pressed - pull) / unloading, radius);
             let least = N::select(halved, N::splat(0.5) * found.plastic, least);
             let pull = N::select(halved, half, pull);
-            let stiffness = N::select(least.greater(N::zero()), pull / self.adhering(least), N::zero());
+            let stiffness = N::select(least.greater(N::zero()), pull / self.adhering(least, radius), N::zero());
             let adhesive = -(stiffness * adhering);
             let below = virgin.greater(elastic);
             let swings = elastic.greater(adhesive);
@@ -262,7 +269,7 @@ impl<N: Number> Eepa<N> {
             let sticks = N::select(below, N::select(swings, N::zero(), N::splat(1.0)), N::zero());
             let again = N::both(sticks.greater(N::zero()), overlap.greater(before));
             open = N::both(open, again);
-            let anew = self.root(before_raised + stiffness / unloading * before_adhering, contact.radius);
+            let anew = self.lowered(before_raised + stiffness / unloading * before_adhering, radius);
             found.plastic = N::select(open, anew, found.plastic);
             turn += 1;
         }
@@ -272,6 +279,7 @@ impl<N: Number> Eepa<N> {
     /// The branches where the adhesion is fixed.
     #[inline(always)]
     fn fixed_branch(&self, contact: &Contact<N>, loading: N, plastic: N) -> Branch<N> {
+        let loading = loading * contact.radius;
         let (overlap, unloading) = (contact.overlap, loading * self.unloading_ratio);
         let adhesion = loading * self.adhesion_ratio;
         let largest = plastic.max(overlap);
@@ -299,11 +307,10 @@ impl NormalForm for Eepa {
     fn response_at<N: Number>(law: Eepa<N>, contact: &Contact<N>, _roots: Roots<N>) -> Response<N> {
         /// ⁵⁄₆ of the slope ³⁄₂ k₁ √δ, over k₁ √δ.
         const OF_SLOPE: f64 = 1.25;
-        let loading = law.loading(contact.radius);
-        let one = N::splat(1.0);
-        let bent = law.overlap_exponent.greater(N::splat(1.25));
+        let (one, bent, radius) = (N::splat(1.0), law.is_bent(), contact.radius);
         let own = law.engine.greater(N::splat(0.5));
-        let scaled = N::select(own, loading, loading * N::select(bent, contact.overlap.sqrt(), one));
+        let engines = N::select(bent, radius.sqrt(), radius);
+        let scaled = law.loading() * N::select(own, engines, law.of_slope(contact.overlap, radius));
         let weight = N::select(own, one, N::select(bent, N::splat(OF_SLOPE), one));
         let damping = (law.damping * contact.mass * (weight * scaled)).sqrt();
         Response {
@@ -325,7 +332,7 @@ impl NormalForm for Eepa {
     ) -> (NormalForce<N>, [N; 4]) {
         let mut response = Self::response_at(law, contact, roots);
         response.tangential_damping = response.tangential_damping * switches.tangential_damping_factor;
-        let loading = law.loading(contact.radius);
+        let loading = law.loading();
         let is_fixed = law.fixed.greater(N::splat(0.5));
         // A law has one of them: the other is not evaluated.
         let branch = if N::any(is_fixed) {
@@ -342,20 +349,20 @@ impl NormalForm for Eepa {
 
     fn elastic_energy(&self, contact: &Contact, _offset: f64, [plastic, ..]: Row) -> f64 {
         // ∫ k₂ (xⁿ − δ_pⁿ) dx from δ_p to δ: what unloading gives back
-        let unloading = self.loading(contact.radius) * self.unloading_ratio;
+        let unloading = self.loading() * self.unloading_ratio;
         let plastic = match self.fixed == 1.0 {
             true => plastic * (1.0 - 1.0 / self.unloading_ratio),
             false => plastic,
         };
-        let whole = |overlap: f64| self.raised(overlap) * overlap / (self.overlap_exponent + 1.0);
-        let (over, under) = (whole(contact.overlap) - whole(plastic), self.raised(plastic));
+        let raised = |overlap: f64| self.raised(overlap, contact.radius);
+        let whole = |overlap: f64| raised(overlap) * overlap / (self.overlap_exponent + 1.0);
+        let (over, under) = (whole(contact.overlap) - whole(plastic), raised(plastic));
         unloading * (over - under * (contact.overlap - plastic))
     }
 
     fn tangent_stiffness(&self, contact: &Contact) -> f64 {
-        let unloading = self.loading(contact.radius) * self.unloading_ratio;
-        let bent = if self.overlap_exponent > 1.25 { contact.overlap.sqrt() } else { 1.0 };
-        self.overlap_exponent * unloading * bent
+        let unloading = self.loading() * self.unloading_ratio;
+        self.overlap_exponent * unloading * self.of_slope(contact.overlap, contact.radius)
     }
 }
 
