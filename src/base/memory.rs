@@ -33,9 +33,9 @@ const NOTE: usize = size_of::<*mut u8>();
 /// status 1, instead of by a signal.
 pub struct Staggered;
 
-/// Arrays from this size on are asked for in huge pages \[bytes\]. A step of a million particles goes through more pages than the
-/// processor keeps the places of, and finding one again takes as long as a read.
-const HUGE: usize = 1 << 24;
+/// Arrays from this size on are asked for in huge pages \[bytes\]: a step of a million particles goes through more pages than a processor
+/// keeps the places of.
+const HUGE: usize = 1 << 22;
 
 /// Large arrays that were given out.
 static GIVEN: AtomicUsize = AtomicUsize::new(0);
