@@ -51,9 +51,9 @@ impl NormalForm for Hertzian {
     }
 
     fn elastic_energy(&self, contact: &Contact, offset: f64, _history: Row) -> f64 {
-        // ∫ K √(R* δ) (δ − δ₀) dδ = K √R* [2/5 δ^(5/2) − 2/3 δ₀ δ^(3/2)] from δ₀ to δ
-        let below = |overlap: f64| overlap * overlap.sqrt() * (0.4 * overlap - offset * 2.0 / 3.0);
-        self.normal_stiffness * contact.radius.sqrt() * (below(contact.overlap) - below(offset))
+        // ∫ K √(R* δ) (δ − δ₀) dδ = K [√(R* δ) δ (2/5 δ − 2/3 δ₀)] from δ₀ to δ
+        let below = |overlap: f64| (contact.radius * overlap).sqrt() * overlap * (0.4 * overlap - offset * 2.0 / 3.0);
+        self.normal_stiffness * (below(contact.overlap) - below(offset))
     }
 
     fn tangent_stiffness(&self, contact: &Contact) -> f64 {
