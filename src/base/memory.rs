@@ -28,7 +28,7 @@ const BEGINNINGS: usize = 60;
 /// Room in front of an array for where its memory begins.
 const NOTE: usize = size_of::<*mut u8>();
 
-/// The system's allocator with large arrays beginning at different places of a page. Programs choose it with
+/// The system's allocator with large arrays beginning at different places of a page, and in huge pages where it has any. Programs choose it with
 /// `#[global_allocator]`; results do not depend on it. Where the system has no memory left it ends the program in words and with
 /// status 1, instead of by a signal.
 pub struct Staggered;
