@@ -87,7 +87,7 @@ pub(crate) fn stiffness(list: &impl ContactEntries, state: &State, ahead: &Searc
 pub(crate) fn records(list: &impl ContactEntries, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
     let (law, kept) = (list.law(), list.kept(state));
     for (entry, &flags) in kept.flags.iter().enumerate().filter(|(_, flags)| is_told(**flags)) {
-        let Some(mut met) = list.meet(state, entry, f64::INFINITY, Motion::shown(law, step)) else { continue };
+        let Some(mut met) = list.meet(state, entry, f64::INFINITY, Motion::HalfStepBack(step)) else { continue };
         met.contact = records::seen(law, met.contact, kept.history, entry);
         let (reaction, sliding) = if flags & (BONDED | RELEASED) == 0 {
             records::react(law, met.row, &met.contact, kept.history, entry, flags)

@@ -3,7 +3,7 @@
 use crate::base::number::Vector;
 use crate::engine::clumps;
 use crate::engine::state::contacts::SLIDING;
-use crate::engine::state::{History, Row, State};
+use crate::engine::state::{BoundaryState, History, Row, State};
 use crate::laws::bond::BondLoads;
 use crate::laws::contact::{Contact, Law, MOST_HISTORY, Reaction};
 
@@ -93,22 +93,25 @@ pub(crate) enum Motion {
 }
 
 impl Motion {
-    /// That which the records of a law show, after a step of this length \[s\]: of the last evaluation; where dashpots are predicted, of
-    /// now, which they saw to the second order of the step.
-    pub(crate) fn shown(law: &Law, step: f64) -> Self {
-        if law.scheme().predicts() { Self::Present } else { Self::HalfStepBack(step) }
+    /// What the last half kick added to the velocity and the angular velocity of a surface, if it is looked at before.
+    pub(crate) fn kick_of(self, boundary: &BoundaryState) -> [Vector; 2] {
+        match self {
+            Self::Present => [Vector::zero(); 2],
+            Self::HalfStepBack(_) => [boundary.inertial.kick.into(), boundary.inertial.spin_kick.into()],
+        }
     }
 
     /// Velocity with mass and angular velocity with moment of inertia of a particle then.
     pub(crate) fn of(self, state: &State, slot: u32) -> (Row, Row) {
         let (particles, slot) = (&state.particles, slot as usize);
-        let (mut velocity, mut spin) = (particles.velocity[slot], particles.angular_velocity[slot]);
+        // An image moves as its particle does; its own rows are those of the last evaluation.
+        let original = particles.original(slot as u32) as usize;
+        let (mut velocity, mut spin) = (particles.velocity[original], particles.angular_velocity[original]);
         if let Some(cell) = &state.cell {
             let stream = cell.streaming_at(state.carried_point(slot));
             velocity.iter_mut().zip(stream).for_each(|(sum, part)| *sum += part);
         }
         let Self::HalfStepBack(step) = self else { return (velocity, spin) };
-        let original = particles.original(slot as u32) as usize;
         let group = particles.group(original);
         if let Some(clump) = group.and_then(|group| group.checked_sub(state.boundaries.len())) {
             let [kick, twist] = clumps::last_kick(&state.clumps, clump, step);
@@ -147,12 +150,16 @@ pub(crate) fn history(kept: &History, entry: usize) -> [Row; MOST_HISTORY] {
 
 /// A contact in the motion that the records of its law show, as its dashpots saw it, if that is remembered.
 pub(crate) fn seen(law: &Law, mut contact: Contact, kept: &History, entry: usize) -> Contact {
-    let remembered = law.history_places().seen.and_then(|place| kept.get(entry).get(place));
-    // Where records were not asked for until now, nothing is remembered yet.
-    if let Some([velocity, weight, 1.0, _]) = remembered {
-        contact.normal_velocity = *velocity;
-        // Springs do not grow in records: here slip is what the dashpot sees.
-        contact.slip = contact.slip * *weight;
+    // Where records were not asked for until now, nothing is remembered yet. Springs do not grow in records: here slip is what the
+    // dashpot sees.
+    match law.history_places().seen.and_then(|place| kept.get(entry).get(place)) {
+        Some(&[velocity, x, y, z]) if law.scheme().carries() && [velocity, x, y, z] != [0.0; 4] => {
+            (contact.normal_velocity, contact.slip) = (velocity, Vector::new(x, y, z));
+        }
+        Some(&[velocity, weight, 1.0, _]) if !law.scheme().carries() => {
+            (contact.normal_velocity, contact.slip) = (velocity, contact.slip * weight);
+        }
+        _ => {}
     }
     contact
 }

@@ -45,9 +45,9 @@ impl Simulation {
         self.passes.iter().map(|pass| pass.near_switch(&self.state, self.state.clock.last_step, margin)).sum()
     }
 
-    /// Every contact at work, between particles first, then at planes. If the scheme is `predicted_normal`, dashpots are shown
-    /// exactly as the last evaluation saw them only where the scene writes contacts or boundaries or has regions; elsewhere they
-    /// are shown with the velocity of mid-step.
+    /// Every contact at work, between particles first, then at planes. Where the scene writes contacts or boundaries, probes a contact
+    /// or has regions, dashpots are shown exactly as the last evaluation saw them; elsewhere with the velocity of mid-step, which they see with the
+    /// scheme `engine`.
     pub fn contacts(&self) -> Vec<ContactRecord> {
         let mut records = Vec::new();
         self.each_contact(&mut |record| records.push(record));

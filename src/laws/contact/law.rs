@@ -29,6 +29,9 @@ pub struct Offset {
 /// the weight of the dashpot across it, and 1.
 const SEEN: HistoryRow = HistoryRow { name: "dashpots seen", odd: [false; 4], fourth_is_free: false };
 
+/// The same where springs are carried: the velocity along the normal and the slip.
+const SEEN_CARRIED: HistoryRow = HistoryRow { odd: [false, true, true, true], ..SEEN };
+
 /// What a book of losses remembers of a contact: k_t \[N/m\] and the force of both dashpots on the first body \[N\] in the last
 /// evaluation.
 const LOADS: HistoryRow = HistoryRow { name: "dashpots before", odd: [false, true, true, true], fourth_is_free: false };
@@ -66,9 +69,10 @@ impl Law {
 
     /// The same law, of whose contacts records show exactly what the last evaluation saw.
     pub fn recorded(mut self) -> Self {
-        if self.history_places.normal_velocity.is_some() {
+        let carries = self.scheme().carries();
+        if carries || self.history_places.normal_velocity.is_some() {
             self.history_places.seen = Some(self.history.len());
-            self.history.push(SEEN);
+            self.history.push(if carries { SEEN_CARRIED } else { SEEN });
         }
         self
     }
@@ -385,6 +389,10 @@ impl Law {
             rates = [history[place][0], before];
         }
         carry.weigh(contact, self.onset(), step, rates);
+        if let Some(place) = self.history_places.seen {
+            let Vector { x, y, z } = contact.slip;
+            history[place] = [contact.normal_velocity, x, y, z];
+        }
         (Some(carry), 1.0)
     }
 

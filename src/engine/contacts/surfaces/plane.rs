@@ -173,7 +173,9 @@ impl ContactEntries for PlaneList<'_> {
             return None;
         }
         let (velocity, spin) = motion.of(state, slot);
-        let geometry = self.plane.meet([distance, position[3]], [velocity, spin], kept.constant(entry));
+        let [kick, _] = motion.kick_of(&state.boundaries[self.surface.list(state).boundary as usize]);
+        let plane = Plane { velocity: self.plane.velocity - kick, ..self.plane };
+        let geometry = plane.meet([distance, position[3]], [velocity, spin], kept.constant(entry));
         let row = self.surface.row(state, slot);
         Some(CurrentContact { contact: geometry.contact, arms: [geometry.first_arm, 0.0], row })
     }

@@ -99,6 +99,8 @@ impl Kernel for CarryRun<'_, '_> {
                     stage.remember(true, rates, row, done);
                 }
                 carry.weigh(&mut contact, stage.onset, step, along);
+                let seen = [contact.normal_velocity, contact.slip.x, contact.slip.y, contact.slip.z];
+                stage.remember(true, stage.history.seen, seen, done);
                 stage.buffer.put_carry(done, &carry, &contact);
             }
             done += N::WIDTH;

@@ -49,7 +49,7 @@ coefficients! {
     /// `limit_force` cuts the pull of the dashpot where nothing adheres. k_n for the other sub-models is k₁ δ^(n − 1).
     /// Everything is forgotten when the bodies part. Give the time step for k₂ at the largest load.
     ///
-    /// With `engine_exact`, as the engine does: a = 0 at walls, so that surface energy does not act there; k_n for the
+    /// With `engine_exact`, as the engine does: δ_m = ½ δ_p where f is ½ k₂ δ_pⁿ, whatever n; a = 0 at walls, so that surface energy does not act there; k_n for the
     /// other sub-models is k₁, and γ_n that of n = 1, whatever n: numbers that depend on the units; `limit_force` does not see a
     /// fixed k_a and cuts it off.
     ///
@@ -255,10 +255,10 @@ impl<N: Number> Eepa<N> {
             let pressed = unloading * self.raised(found.plastic, radius);
             let elastic = unloading * raised - pressed;
             let (pull, half) = (self.pull_on_patch * self.patch(contact, found.plastic), N::splat(0.5) * pressed);
-            let halved = pull.greater(half);
-            let least = self.lowered((pressed - pull) / unloading, radius);
-            let least = N::select(halved, N::splat(0.5) * found.plastic, least);
+            let (halved, own) = (pull.greater(half), self.engine.greater(N::splat(0.5)));
             let pull = N::select(halved, half, pull);
+            let least = self.lowered((pressed - pull) / unloading, radius);
+            let least = N::select(N::both(halved, own), N::splat(0.5) * found.plastic, least);
             let stiffness = N::select(least.greater(N::zero()), pull / self.adhering(least, radius), N::zero());
             let adhesive = -(stiffness * adhering);
             let below = virgin.greater(elastic);

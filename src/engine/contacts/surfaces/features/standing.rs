@@ -67,6 +67,12 @@ impl Mobility {
 }
 
 impl<'a> MovingSurface<'a> {
+    /// The same before its velocity and its angular velocity grew by this much.
+    pub(super) fn before(self, kick: Vector, twist: Vector) -> Self {
+        let spin = self.spin - twist;
+        Self { velocity: self.velocity - kick, spin, turning: spin != Vector::zero(), ..self }
+    }
+
     /// A surface of features where its boundary stands.
     pub(super) fn of(features: &'a dyn Features, surface: &AtSurface, boundary: &BoundaryState) -> Self {
         let frame = Frame::of(surface.reference, boundary.shift().into(), boundary.orientation.0);

@@ -23,7 +23,8 @@ impl AtSurface {
         let _ = self.follow(state);
         let boundary = self.list(state).boundary as usize;
         let standing = (&state.boundaries[boundary], state.nodes_of(boundary));
-        MovingSurface::with(self, standing, |at| self.each_at(&at, state, motion, hand));
+        let [kick, twist] = motion.kick_of(standing.0);
+        MovingSurface::with(self, standing, |at| self.each_at(&at.before(kick, twist), state, motion, hand));
     }
 
     /// The same where it stands.
@@ -138,7 +139,7 @@ impl AtSurface {
         tell: &mut dyn FnMut(ContactRecord),
     ) {
         let (list, law, particles) = (self.list(state), &self.law.law, &state.particles);
-        self.each(state, Motion::shown(law, step), |entry, foot, share, geometry| {
+        self.each(state, Motion::HalfStepBack(step), |entry, foot, share, geometry| {
             let (slot, contact) = (list.particle[entry], &records::seen(law, geometry.contact, &list.history, entry));
             let (row, flags) = (self.row(state, slot), list.flags[entry]);
             let (reaction, sliding) = records::react(law, row, contact, &list.history, entry, flags);
