@@ -53,4 +53,5 @@ mod support;
 mod suppressed_contacts;
 mod surface_courses;
 mod surfaces;
+mod told_forces;
 mod units;

@@ -1,7 +1,7 @@
 //! Where new particles begin: whole in their region, free of everything that is there.
 
 use super::occupied::Occupied;
-use super::{book, cost, is_owed};
+use super::{WHOLE, book, cost, is_owed};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
 use crate::engine::clumps::{self, ClumpBodies};
@@ -181,8 +181,9 @@ fn free_place(
 
 /// What a rate asked for and found no room is not made up for, but for the one that waits.
 fn drop_rest(insertion: &Insertion, feed: &mut InsertionProgress) {
-    if !matches!(insertion.amount, Amount::Mass(_)) {
-        let rest = (feed.owed - cost(insertion, feed)).max(0.0);
+    let next = cost(insertion, feed);
+    let rest = feed.owed - next;
+    if !matches!(insertion.amount, Amount::Mass(_)) && rest > WHOLE * next {
         feed.owed -= rest;
         feed.dropped += rest;
     }

@@ -452,6 +452,23 @@ mod tests {
     }
 
     #[test]
+    fn pulls_no_harder_than_half_of_what_pressed_it() {
+        // n = 3/2: k₂ = 8/3 N/m^(3/2), δ_p^(3/2) = ¾ · 0.008; f = ½ k₂ δ_p^(3/2) at 2^(−2/3) δ_p
+        let least = |engine_exact, chi| {
+            let law = law(Keys { engine_exact, ..keys(1.5, chi) }, 10.0);
+            let overlaps: Vec<f64> = (0..=400).map(|step| 0.04 - 1e-4 * f64::from(step)).collect();
+            way(law, &overlaps).into_iter().fold(0.0, f64::min)
+        };
+        let pull = 0.5 * 8.0 / 3.0 * 0.75 * 0.008;
+        for chi in [1.0, 1.5, 2.0, 3.0, 5.0] {
+            let found = least(false, chi);
+            assert!(found >= -pull && found < -0.99 * pull, "{chi}: {found}, {pull}");
+            // The engine's branch goes through half of δ_p.
+            assert!(least(true, chi) < -1.1 * pull, "{chi}");
+        }
+    }
+
+    #[test]
     fn sticks_to_walls_but_not_in_the_engine() {
         let wall = |engine_exact| {
             let law = law(Keys { engine_exact, ..keys(1.0, 1.0) }, 1e-4);
