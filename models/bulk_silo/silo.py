@@ -78,11 +78,12 @@ def draw(path, time, out):
         axes.plot(values[:, 0], values[:, place] / 1e3, line, color=colour, label=rows[0][place].split("_")[0])
     axes.plot(time, (values[0, 1] - out) / 1e3, color="#b5482a", linewidth=2, label="cograin")
     axes.set(xlabel="time [s]", ylabel="grains above the lip [thousands]", xlim=(0.0, 4.4), ylim=(0.0, None))
-    inset = axes.inset_axes([0.52, 0.5, 0.44, 0.42])
-    for line in axes.lines:
-        inset.plot(*line.get_data(), line.get_linestyle(), color=line.get_color(), linewidth=line.get_linewidth())
-    shown = slice(None, int(np.searchsorted(values[:, 0], time[-1])) + 1)
-    inset.set(xlim=(0.0, time[-1]), ylim=(values[shown, 1:].min() / 1e3 - 0.5, 100.5))
+    if time[-1] < 0.5 * values[-1, 0]:
+        inset = axes.inset_axes([0.52, 0.5, 0.44, 0.42])
+        for line in axes.lines:
+            inset.plot(*line.get_data(), line.get_linestyle(), color=line.get_color(), linewidth=line.get_linewidth())
+        shown = slice(None, int(np.searchsorted(values[:, 0], time[-1])) + 1)
+        inset.set(xlim=(0.0, time[-1]), ylim=(values[shown, 1:].min() / 1e3 - 0.5, 100.5))
     axes.legend(frameon=False, loc="lower left")
     figure.savefig(path, dpi=110)
     plt.close(figure)
