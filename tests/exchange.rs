@@ -219,6 +219,22 @@ fn a_rate_that_is_given_acts_in_the_next_communication_step() {
 }
 
 #[test]
+fn a_rate_holds_where_nothing_touches_and_time_steps_are_long() {
+    // Tries every fifty time steps let 34 of 298 come, without a word.
+    let text = "[run]\nend = 1.0\n[material.glass]\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\ndensity = 2500.0\n\
+                [pair.glass.glass]\nrestitution = 0.7\n[contact.touch.normal.hertz]\n\
+                [particles.one]\nmaterial = \"glass\"\nlist = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }]\n\
+                [region.box]\nbox = [[0.1, 0.1, 0.1], [0.3, 0.3, 0.3]]\n\
+                [insertion.feed]\nregion = \"box\"\nmaterial = \"glass\"\nsizes = { radius = 0.004 }\ncount_rate = 298.0\n";
+    let mut simulation = begun(&scene(text), Width::widest());
+    for number in 1..=10 {
+        simulation.advance(0.02).unwrap();
+        let (came, due) = (exchange(&simulation).feeds[0].came.count as f64, 298.0 * 0.02 * f64::from(number));
+        assert!(came <= due && came > due - 12.0, "{came} of {due}");
+    }
+}
+
+#[test]
 fn a_step_that_fails_gives_back_the_rates_and_what_was_there() {
     let scene = scene(FREE);
     let mut simulation = begun(&scene, Width::widest());

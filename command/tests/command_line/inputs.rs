@@ -68,3 +68,21 @@ fn a_table_of_inputs_that_does_not_fit_is_refused_with_its_line() {
         assert!(!output.exists());
     }
 }
+
+/// The cell once ran to the first row's strain within the first row of the history, however long that was.
+#[test]
+fn a_strain_begins_at_zero() {
+    let place = Place::new("strain_inputs");
+    let scene = place.at("cell.toml");
+    let text = "[run]\nend = 1e-3\nstep = 1e-5\n[material.glass]\ndensity = 2500.0\n[particles.one]\nmaterial = \"glass\"\n\
+                list = [{ position = [0.5, 0.5, 0.5], radius = 0.1 }]\n\
+                [cell]\nedges = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\nmotion = { driven = [\"zz\"] }\n";
+    fs::write(&scene, text).unwrap();
+    let inputs = place.at("strain.csv");
+    fs::write(&inputs, "time,cell.strain.zz\n0,-0.01\n1e-3,-0.01\n").unwrap();
+    let run = || cograin(&[&"run", &scene, &"--inputs", &inputs, &"-o", &place.at("out")]).output().unwrap();
+    let said = complaint(&run(), 2);
+    assert!(said.trim_end().ends_with("line 2: expected strain 0 at time 0, found -0.01"), "{said}");
+    fs::write(&inputs, "time,cell.strain.zz\n0,0\n1e-3,-0.01\n").unwrap();
+    complaint(&run(), 0);
+}

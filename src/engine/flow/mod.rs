@@ -27,6 +27,12 @@ pub(crate) use outlets::RemovedParticles;
 /// Time steps between two times at which an insertion is tried.
 const WAIT: u64 = 50;
 
+/// How many are due of a rate before that: time steps may be long where nothing touches.
+const MOST_DUE: f64 = 10.0;
+
+/// The same over the number of particles: a try looks at all of them.
+const MOST_DUE_SHARE: f64 = 0.01;
+
 /// Way over the smallest radius after which outlets are looked at again, and a full region is.
 const LOOK: f64 = 0.5;
 
@@ -163,7 +169,7 @@ impl Flow {
     pub(crate) fn is_due(&self, scene: &Scene, state: &State) -> bool {
         let Some(exchange) = &state.exchange else { return false };
         let feeds = exchange.feeds.iter().zip(&scene.insertions);
-        feeds.into_iter().any(|(feed, insertion)| self.may_come(feed, insertion, state.clock.steps))
+        feeds.into_iter().any(|(feed, insertion)| self.may_come(feed, insertion, state))
     }
 
     /// Whether a mass is still to come of which not all found room when it was tried last.
@@ -176,8 +182,10 @@ impl Flow {
     }
 
     /// Whether a particle of an insertion is due and may be tried.
-    fn may_come(&self, feed: &InsertionProgress, insertion: &crate::scene::Insertion, steps: u64) -> bool {
-        let waited = steps >= feed.tried + WAIT || feed.tried == 0;
+    fn may_come(&self, feed: &InsertionProgress, insertion: &crate::scene::Insertion, state: &State) -> bool {
+        let most = MOST_DUE.max(MOST_DUE_SHARE * state.particles.len() as f64);
+        let is_late = !matches!(insertion.amount, Amount::Mass(_)) && feed.owed >= most * cost(insertion, feed);
+        let waited = state.clock.steps >= feed.tried + WAIT || feed.tried == 0 || is_late;
         waited && is_owed(insertion, feed) && (!feed.full || feed.travel > LOOK * self.smallest)
     }
 
@@ -191,9 +199,8 @@ impl Flow {
     ) -> Result<bool, RunError> {
         let mut came = false;
         for (index, insertion) in scene.insertions.iter().enumerate() {
-            let steps = state.clock.steps;
             let due = state.exchange.as_ref().is_some_and(|exchange| {
-                exchange.feeds.get(index).is_some_and(|feed| self.may_come(feed, insertion, steps))
+                exchange.feeds.get(index).is_some_and(|feed| self.may_come(feed, insertion, state))
             });
             if due {
                 came |= places::feed(scene, (fields, clumps), state, (index, self.turning), step)?;

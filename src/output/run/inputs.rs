@@ -26,6 +26,8 @@ struct Column {
     index: usize,
     /// Whether it says where a boundary is to be: at the end of a communication step, and 0 at time 0.
     is_place: bool,
+    /// Whether that, or the strain of a cell, counts from time 0.
+    begins_at_zero: bool,
     /// Values at the times.
     values: Vec<f64>,
 }
@@ -91,8 +93,9 @@ impl Inputs {
     fn add(&mut self, time: f64, row: &[f64]) -> Result<(), (&'static str, String)> {
         if time == 0.0 && self.times.len() == 1 {
             for (column, value) in self.columns.iter_mut().zip(row) {
-                if column.is_place && *value != 0.0 {
-                    return Err(("displacement 0 at time 0", format!("{value:?}")));
+                if column.begins_at_zero && *value != 0.0 {
+                    let what = if column.is_place { "displacement 0 at time 0" } else { "strain 0 at time 0" };
+                    return Err((what, format!("{value:?}")));
                 }
                 column.values[0] = *value;
             }
@@ -143,7 +146,13 @@ impl Column {
     fn of(interface: &Interface, index: usize) -> Self {
         let variable = &interface.variables()[index];
         let is_place = matches!(variable.quantity, Quantity::Length | Quantity::Angle);
-        Self { index, is_place, values: vec![if is_place { 0.0 } else { variable.start.unwrap_or(0.0) }] }
+        let begins_at_zero = is_place || variable.name.starts_with("cell.strain") || variable.name == "cell.shear";
+        Self {
+            index,
+            is_place,
+            begins_at_zero,
+            values: vec![if begins_at_zero { 0.0 } else { variable.start.unwrap_or(0.0) }],
+        }
     }
 }
 

@@ -202,11 +202,11 @@ impl<N: Number> Eepa<N> {
         N::select(self.is_bent(), (radius * x).sqrt(), radius)
     }
 
-    /// The x that was raised to this area \[m\]: the cube root is that of a number without unit.
+    /// The x that was raised to this area \[m\], by R* and 1/R*: the cube root is that of a number without unit.
     #[inline(always)]
-    fn lowered(&self, area: N, radius: N) -> N {
-        let length = area.max(N::zero()) / radius;
-        let root = (length / radius).cube_root();
+    fn lowered(&self, area: N, [radius, curvature]: [N; 2]) -> N {
+        let length = area.max(N::zero()) * curvature;
+        let root = (length * curvature).cube_root();
         N::select(self.is_bent(), radius * (root * root), length)
     }
 
@@ -244,6 +244,7 @@ impl<N: Number> Eepa<N> {
         /// is right but for rounding.
         const TURNS: usize = 8;
         let (overlap, radius, unloading) = (contact.overlap, contact.radius, loading * self.unloading_ratio);
+        let radii = [radius, N::splat(1.0) / radius];
         let (raised, adhering) = (self.raised(overlap, radius), self.adhering(overlap, radius));
         let (before_raised, before_adhering) = (self.raised(before, radius), self.adhering(before, radius));
         let virgin = loading * raised;
@@ -257,7 +258,7 @@ impl<N: Number> Eepa<N> {
             let (pull, half) = (self.pull_on_patch * self.patch(contact, found.plastic), N::splat(0.5) * pressed);
             let (halved, own) = (pull.greater(half), self.engine.greater(N::splat(0.5)));
             let pull = N::select(halved, half, pull);
-            let least = self.lowered((pressed - pull) / unloading, radius);
+            let least = self.lowered((pressed - pull) / unloading, radii);
             let least = N::select(N::both(halved, own), N::splat(0.5) * found.plastic, least);
             let stiffness = N::select(least.greater(N::zero()), pull / self.adhering(least, radius), N::zero());
             let adhesive = -(stiffness * adhering);
@@ -269,7 +270,7 @@ impl<N: Number> Eepa<N> {
             let sticks = N::select(below, N::select(swings, N::zero(), N::splat(1.0)), N::zero());
             let again = N::both(sticks.greater(N::zero()), overlap.greater(before));
             open = N::both(open, again);
-            let anew = self.lowered(before_raised + stiffness / unloading * before_adhering, radius);
+            let anew = self.lowered(before_raised + stiffness / unloading * before_adhering, radii);
             found.plastic = N::select(open, anew, found.plastic);
             turn += 1;
         }
@@ -309,8 +310,11 @@ impl NormalForm for Eepa {
         const OF_SLOPE: f64 = 1.25;
         let (one, bent, radius) = (N::splat(1.0), law.is_bent(), contact.radius);
         let own = law.engine.greater(N::splat(0.5));
-        let engines = N::select(bent, radius.sqrt(), radius);
-        let scaled = law.loading() * N::select(own, engines, law.of_slope(contact.overlap, radius));
+        let mut slope = law.of_slope(contact.overlap, radius);
+        if N::any(own) {
+            slope = N::select(own, N::select(bent, radius.sqrt(), radius), slope);
+        }
+        let scaled = law.loading() * slope;
         let weight = N::select(own, one, N::select(bent, N::splat(OF_SLOPE), one));
         let damping = (law.damping * contact.mass * (weight * scaled)).sqrt();
         Response {
