@@ -2,7 +2,7 @@
 
     python3 benches/settling.py [--count 1000] [--only NAME] [--damping 0.2 0.4 0.6 0.8] [--safety 0.8] [--seed 1] [--cograin FILE]
 
-A line for each kind: steps of the default, steps of each damping, and the ratio of the default to the least. `-` did not settle; why is
+A line for each kind: steps of the default (for `bonded` iterations of Newton's method), steps of each damping, and the ratio of the default to the least. `-` did not settle; why is
 told below the line.
 """
 
@@ -93,7 +93,7 @@ def settle(options, scene, damping=None):
     command += ["--set", f"run.settle_damping={damping}"] if damping is not None else []
     command += ["--steps", str(options.steps), "--set", f"run.seed={options.seed}"]
     done = subprocess.run([word for word in command if word != "--quiet"], capture_output=True, text=True, check=False)
-    found = re.search(r"settled after (\d+) steps?", done.stdout)
+    found = re.search(r"settled after (\d+) (?:step|iteration)", done.stdout)
     return (int(found[1]), "") if found else (None, done.stderr.strip().splitlines()[-1])
 
 
