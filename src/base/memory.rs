@@ -28,14 +28,10 @@ const BEGINNINGS: usize = 60;
 /// Room in front of an array for where its memory begins.
 const NOTE: usize = size_of::<*mut u8>();
 
-/// The system's allocator with large arrays beginning at different places of a page, and in huge pages where it has any. Programs choose it with
+/// The system's allocator with large arrays beginning at different places of a page. Programs choose it with
 /// `#[global_allocator]`; results do not depend on it. Where the system has no memory left it ends the program in words and with
 /// status 1, instead of by a signal.
 pub struct Staggered;
-
-/// Arrays from this size on are asked for in huge pages \[bytes\]: a step of a million particles goes through more pages than a processor
-/// keeps the places of.
-const HUGE: usize = 1 << 22;
 
 /// Large arrays that were given out.
 static GIVEN: AtomicUsize = AtomicUsize::new(0);
@@ -53,29 +49,7 @@ fn is_large(array: Layout) -> bool {
 
 /// The memory that the system gave; where it has none left the program ends.
 fn given(start: *mut u8, memory: Layout) -> *mut u8 {
-    if start.is_null() {
-        end_without(memory)
-    }
-    if memory.size() >= HUGE {
-        prefer_huge_pages(start, memory.size());
-    }
-    start
-}
-
-/// Tells the system that memory, of which nothing was touched yet, had better come in huge pages, where it has any. It need not listen.
-fn prefer_huge_pages(_start: *mut u8, _size: usize) {
-    #[cfg(target_os = "linux")]
-    {
-        use std::ffi::{c_int, c_void};
-        unsafe extern "C" {
-            fn madvise(start: *mut c_void, size: usize, advice: c_int) -> c_int;
-        }
-        /// `MADV_HUGEPAGE` of <sys/mman.h>.
-        const HUGE_PAGES: c_int = 14;
-        let ahead = _start.align_offset(PAGE);
-        // SAFETY: whole pages within memory of our own; advice changes nothing that it holds.
-        unsafe { madvise(_start.add(ahead).cast(), _size - ahead, HUGE_PAGES) };
-    }
+    if start.is_null() { end_without(memory) } else { start }
 }
 
 /// Ends the program in words and with status 1, as other work that failed. Files are whole at any time.
