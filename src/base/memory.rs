@@ -157,9 +157,14 @@ pub fn prefetch<T>(_place: *const T) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::sync::{Mutex, PoisonError};
+
+    /// Where an array begins depends on how many were given out before: one test after the other.
+    static ALONE: Mutex<()> = Mutex::new(());
 
     /// Asks for arrays of these sizes, writes them full, and hands out where they begin.
     fn beginnings(sizes: &[usize]) -> Vec<usize> {
+        let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let arrays: Vec<_> = sizes
             .iter()
             .map(|&size| {
@@ -204,6 +209,7 @@ mod tests {
 
     #[test]
     fn arrays_grow_and_keep_what_they_hold() {
+        let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let layout = Layout::from_size_align(LARGE, 8).unwrap();
         // SAFETY: the size is not zero, and layouts go with their arrays.
         unsafe {
