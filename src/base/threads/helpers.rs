@@ -45,7 +45,7 @@ pub(crate) struct Threads {
     failed: AtomicBool,
     /// How many helpers sleep or are about to.
     asleep: AtomicUsize,
-    /// Who they are.
+    /// The helpers that sleep or are about to.
     sleepers: Mutex<Vec<Thread>>,
 }
 
@@ -110,7 +110,7 @@ impl Drop for Open<'_> {
 }
 
 impl Threads {
-    /// So many threads.
+    /// The threads of a simulation, this many.
     pub(crate) fn of(threads: usize) -> Self {
         let shares = || (0..threads).map(|_| Share(AtomicU64::new(0))).collect();
         Self {

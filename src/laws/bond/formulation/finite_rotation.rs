@@ -191,7 +191,7 @@ impl<N: Number> Ends<N> {
         [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, e, f, self.along, self.across, self.shared]
     }
 
-    /// Back.
+    /// The inverse of `to_numbers`.
     #[inline(always)]
     fn from_numbers(numbers: &Intermediate<N>) -> Self {
         let vector = |first: usize| Vector::new(numbers[first], numbers[first + 1], numbers[first + 2]);
