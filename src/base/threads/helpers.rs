@@ -295,7 +295,7 @@ mod tests {
         });
     }
 
-    /// It looked for the next loop for ever: the number of the last loop was not that of the last one that it had done.
+    /// The number of the last loop may be above that of the last one that the helper did.
     #[test]
     fn a_helper_that_came_too_late_for_the_last_loop_sleeps() {
         let threads = &Threads::of(2);
