@@ -17,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LAWS = ROOT / "src" / "laws"
-GATHERED = ["*.md", "LICENSE-*", "CITATION.cff", "docs", "python/README.md", "models/*.md", "models/*.png"]
+GATHERED = ["*.md", "LICENSE-*", "CITATION.cff", "docs/**", "python/README.md", "models/*/*.md", "models/*/*.png"]
 """What of the tree is in the book, as patterns of `git ls-files`."""
 ROOMS = {
     "bond/breakage": ("Breakage of bonds", "[bond.<name>.breakage.{}]"),
@@ -100,7 +100,8 @@ def pages_of(pattern, line):
 def gather(folder):
     """Fills the folder from which the book is built."""
     shutil.rmtree(folder, ignore_errors=True)
-    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", *GATHERED]
+    patterns = [f":(glob){pattern}" for pattern in GATHERED]
+    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", *patterns]
     for name in subprocess.run(listed, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")[:-1]:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / name, folder / name)
