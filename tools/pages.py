@@ -24,6 +24,7 @@ ROOMS = {
     "bond/damping": ("Damping of bonds", "[bond.<name>.damping.{}]"),
     "bond/formulation": ("Formulations of bonds", 'formulation = "{}"'),
     "contact/cohesion": ("Cohesion", "[contact.<name>.cohesion.{}]"),
+    "contact/heat": ("Heat", "[contact.<name>.heat.{}]"),
     "contact/normal": ("Normal force", "[contact.<name>.normal.{}]"),
     "contact/rolling": ("Rolling resistance", "[contact.<name>.rolling.{}]"),
     "contact/tangential": ("Friction", "[contact.<name>.tangential.{}]"),

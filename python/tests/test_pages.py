@@ -50,3 +50,10 @@ def test_crate_wheel_and_citation_state_one_version():
     wheel = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
     citation = re.search(r"^version: (.*)$", (ROOT / "CITATION.cff").read_text(encoding="utf-8"), re.MULTILINE)[1]
     assert (wheel, citation) == (crate, crate)
+
+
+def test_every_page_of_the_documentation_is_in_the_table_of_contents(pages, tmp_path):
+    pages.gather(tmp_path)
+    contents = (tmp_path / "SUMMARY.md").read_text(encoding="utf-8")
+    written = [path.relative_to(ROOT).as_posix() for path in (ROOT / "docs").rglob("*.md") if path.stem != "SUMMARY"]
+    assert [page for page in written if f"({page})" not in contents] == []
