@@ -67,6 +67,13 @@ def keys_of(path):
     return "\n".join([*rows, ""]) if declared else ""
 
 
+def write_code(folder):
+    """Writes a page that leads to what `cargo doc` writes; returns its line in the table of contents."""
+    text = "# The code\n\n`cargo doc` writes a page for each item: [the library](code/cograin/index.html).\n"
+    (folder / "code.md").write_text(text, encoding="utf-8")
+    return "- [The code](code.md)"
+
+
 def write_laws(folder):
     """Writes a page for each law and one for each room; returns their lines in the table of contents."""
     rooms = {}
@@ -109,6 +116,7 @@ def gather(folder):
     below = {
         "- [Decisions](docs/decisions/README.md)": pages_of("docs/decisions/[0-9]*.md", "  - [{}]({})"),
         "# Laws": ["", *write_laws(folder)],
+        "- [Contributing](CONTRIBUTING.md)": [write_code(folder)],
         "# Models": ["", *pages_of("models/*/readme.md", "- [{}]({})")],
     }
     contents = []
@@ -129,6 +137,8 @@ def check(folder):
         for link in map(html.unescape, re.findall(r'(?:href|src)="(?!\w+:)([^"]*)"', main)):
             target, _, anchor = link.partition("#")
             place = (page.parent / target).resolve() if target else page
+            if place.is_relative_to(folder.resolve() / "code"):  # written by `cargo doc`
+                continue
             if not place.exists() or (anchor and anchor not in anchors.get(place, {anchor})):
                 broken.append(f"{page.relative_to(folder.resolve())}: {link}")
     return broken
