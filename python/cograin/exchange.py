@@ -99,12 +99,12 @@ class Exchange(ABC):
     _fixed = ("_made", "tolerance", "exchange", "_measure")
 
     def memory(self) -> Any:
-        """What it knows from earlier steps."""
+        """What the exchange learned in earlier steps."""
         changing = {name: value for name, value in vars(self).items() if name not in self._fixed}
         return {name: list(value) if isinstance(value, list) else value for name, value in changing.items()}
 
     def recall(self, memory: Any) -> None:
-        """Knows that again, and nothing of what came after."""
+        """Restores what `memory` returned, and forgets what came after."""
         vars(self).update(memory)
 
     def fresh(self) -> None:

@@ -51,7 +51,7 @@ class _Turn:
         self.counted = np.zeros(3)  # the directions as the partner has them
 
     def memory(self) -> tuple[Vector, Vector, Vector]:
-        """What changes."""
+        """The values that change in a step."""
         return self.given, self.before, self.counted
 
     def begin(self, given: Vector, others: Vector) -> None:
@@ -207,7 +207,7 @@ class _Part:
         self._turns_saved = [one.memory() for one in self.turns]
 
     def restore(self) -> None:
-        """Has that again."""
+        """Restores the saved state."""
         for one, saved in zip(self.turns, self._turns_saved, strict=True):
             one.given, one.before, one.counted = saved
 
@@ -466,11 +466,11 @@ class Interface:
         self.displacement = self._saved
 
     def memory(self) -> Any:
-        """What changes beside the units."""
+        """The values that change in a step, without the units."""
         return self.displacement, [[one.memory() for one in part.turns] for part in self._parts]
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         self.displacement, turns = memory
         for part, several in zip(self._parts, turns, strict=True):
             for one, kept in zip(part.turns, several, strict=True):

@@ -117,11 +117,11 @@ class UnitPartner:
         return [self.unit]
 
     def memory(self) -> Any:
-        """Where it is, and what it learned of the unit."""
+        """Where the partner is, and what it learned of the unit."""
         return self._here, self.unit.time, self._largest, dict(self._compliances)
 
     def recall(self, memory: Any) -> None:
-        """Is there again, at the beginning of a step."""
+        """Restores what `memory` returned, at the beginning of a step."""
         self._here, time, self._largest, self._compliances = memory
         if (self._tried is not None or self.unit.time != time) and self._saved is not None:
             self.unit.restore(self._saved)
@@ -207,11 +207,11 @@ class Partners:
         return tuple(first + each for one, first in turning for each in one.turning())
 
     def memory(self) -> Any:
-        """What changes in each that says it."""
+        """The memories of those that have one."""
         return [one.memory() if hasattr(one, "memory") else None for one in self.partners]
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         for one, kept in zip(self.partners, memory, strict=True):
             if hasattr(one, "recall"):
                 one.recall(kept)

@@ -76,7 +76,7 @@ class Record:
         return numbers, {place: row.reason for place, row in enumerate(self.rows) if row.reason}
 
     def recall(self, memory: Any) -> None:
-        """Has these rows again."""
+        """Restores these rows."""
         numbers, reasons = memory
         ends = np.cumsum([len(COLUMNS), self._directions, self._directions])
         self.rows = []

@@ -202,11 +202,11 @@ class RigidBody:
         self._tried = self._complied = None
 
     def memory(self) -> Any:
-        """What changes."""
+        """The values that change in a step."""
         return tuple(vars(self._now).values()), {name: vars(self)[name] for name in _CHANGING}
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         now, others = memory
         self._now = _Motion(*now)
         vars(self).update(others)

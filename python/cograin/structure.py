@@ -149,11 +149,11 @@ class Structure:
         self.work += float(force @ (displacement - begin))
 
     def memory(self) -> Any:
-        """What changes."""
+        """The values that change in a step."""
         return {name: vars(self)[name] for name in _CHANGING}
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         vars(self).update(memory)
         self._unforced = self._kicked = None
 

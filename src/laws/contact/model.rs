@@ -180,7 +180,7 @@ pub struct NormalFunctions {
 }
 
 impl NormalRow {
-    /// That of a normal model.
+    /// The row of a normal model.
     pub const fn of<M: Normal>() -> &'static Self {
         const {
             &Self {
@@ -276,7 +276,7 @@ pub struct TangentialFunctions {
 }
 
 impl TangentialRow {
-    /// That of a tangential model.
+    /// The row of a tangential model.
     pub const fn of<M: Tangential>() -> &'static Self {
         const {
             &Self {
@@ -355,7 +355,7 @@ pub struct RollingFunctions {
 }
 
 impl RollingRow {
-    /// That of a rolling model.
+    /// The row of a rolling model.
     pub const fn of<M: Rolling>() -> &'static Self {
         const {
             &Self {
@@ -436,7 +436,7 @@ pub struct CohesionFunctions {
 }
 
 impl CohesionRow {
-    /// That of a cohesion model.
+    /// The row of a cohesion model.
     pub const fn of<M: Cohesion>() -> &'static Self {
         const {
             &Self {
