@@ -10,6 +10,7 @@ mod boundary;
 pub(crate) mod cell;
 mod checked;
 pub(crate) mod clump;
+mod column;
 mod damping;
 pub mod exchange;
 pub(crate) mod file;
@@ -37,6 +38,7 @@ pub use boundary::Boundary;
 pub use cell::{Cell, CellMotion, StressServo};
 pub use checked::Scene;
 pub use clump::{Clump, ClumpShape, OrientationKey};
+pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
@@ -103,6 +105,8 @@ pub struct SceneDraft {
     pub sets: Vec<String>,
     /// All particles of all sets, by ascending id.
     pub particles: Vec<Particle>,
+    /// Declared columns that the scene asks for, and what they begin with.
+    pub columns: Vec<ColumnStart>,
     /// Shapes of clumps, in the order of the file.
     pub clump_shapes: Vec<ClumpShape>,
     /// Clumps, whose spheres are among the particles.

@@ -1,6 +1,7 @@
 //! The sub-models, rules of breakage and shapes that scenes may name.
 
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
+use crate::laws::column::Column;
 use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
     RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
@@ -31,6 +32,8 @@ pub struct Models {
     pub(crate) breakage: Vec<&'static BreakageRow>,
     /// Shapes of boundaries.
     pub(crate) shapes: Vec<&'static ShapeRow>,
+    /// Columns of particles that scenes may ask for.
+    pub(crate) columns: Vec<&'static Column>,
 }
 
 impl Default for Models {
@@ -49,6 +52,7 @@ impl Models {
             cohesion: contact::cohesion::STANDARD.to_vec(),
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
+            columns: Vec::new(),
         }
     }
 
@@ -85,6 +89,12 @@ impl Models {
     /// The same and a shape of boundaries, in place of one of the same key.
     pub fn with_shape<K: ShapeKeys>(mut self) -> Self {
         put(&mut self.shapes, ShapeRow::of::<K>(), |row| row.key);
+        self
+    }
+
+    /// The same and a column of particles, in place of one of the same name.
+    pub fn with_column(mut self, column: &'static Column) -> Self {
+        put(&mut self.columns, column, |column| column.name);
         self
     }
 

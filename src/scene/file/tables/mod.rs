@@ -10,7 +10,7 @@ pub(super) use crate::laws::surface::Selection;
 pub(in crate::scene) use body::Inertia;
 pub(super) use body::{Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
-pub(super) use particles::{ListEntry, ParticlesTable};
+pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
 
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
