@@ -6,6 +6,7 @@ use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
 use crate::engine::state::Underway;
 use crate::engine::state::clock::MOST_STEPS;
+use crate::engine::transfer;
 use crate::laws::motion::Progress;
 use crate::scene::Boundary;
 
@@ -43,6 +44,7 @@ impl Simulation {
         }
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
+        transfer::end(self.state.heat.as_mut(), elapsed);
         if let Some(cell) = &self.cell {
             cell.end(&mut self.state, elapsed);
         }
@@ -59,6 +61,7 @@ impl Simulation {
         }
         course::begin(&self.scene, &mut self.state, interval)?;
         nodes::begin(&self.scene, &mut self.state, interval);
+        transfer::begin(self.state.heat.as_mut(), interval);
         if let Some(cell) = &self.cell {
             cell.begin(&mut self.state, interval)?;
         }

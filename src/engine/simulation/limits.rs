@@ -6,6 +6,7 @@ use crate::base::threads::Context;
 use crate::engine::boundaries::course;
 use crate::engine::contacts::FASTER;
 use crate::engine::stability::{self, Limit, System};
+use crate::engine::transfer;
 use crate::engine::state::{BoundaryState, State};
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
 use crate::scene::{Boundary, Insertion, Step};
@@ -104,7 +105,9 @@ impl Simulation {
 
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
-        Some((self.part_of_stable()? * stable).min(self.longest_by_motion()).min(self.longest_by_springs()))
+        let by_heat = transfer::longest_step(self.state.heat.as_ref());
+        let longest = (self.part_of_stable()? * stable).min(self.longest_by_motion()).min(self.longest_by_springs());
+        Some(longest.min(by_heat))
     }
 
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and

@@ -36,6 +36,7 @@ impl Simulation {
             cell.finish(&mut self.state, step);
         }
         self.follow_contacts();
+        self.transfer_heat(&progress, context);
 
         self.book_second_kick(gravity, step, context);
         let speed = self.kick_again(gravity, step, context);
@@ -70,6 +71,23 @@ impl Simulation {
         let strain = cell.advance(&mut self.state, progress, context);
         self.done("cell");
         strain
+    }
+
+    /// Lets heat flow between what touches now, where any does.
+    fn transfer_heat(&mut self, progress: &Progress, context: &Context) {
+        let Self { transfer, scene, passes, state, .. } = self;
+        if let Some(transfer) = transfer {
+            transfer.advance((scene, passes), state, progress, context);
+            self.done("heat");
+        }
+    }
+
+    /// Finds what conducts now, before anything flows.
+    pub(super) fn look_at_heat(&mut self, context: &Context) {
+        let Self { transfer, scene, passes, state, .. } = self;
+        if let Some(transfer) = transfer {
+            transfer.look((scene, passes), state, context);
+        }
     }
 
     /// Makes the second half of the kick, of particles and bodies that forces move. Returns the largest speed at the middle of the next

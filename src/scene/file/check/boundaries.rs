@@ -2,6 +2,7 @@
 
 use super::body;
 use super::contacts::material_index;
+use super::heat;
 use super::motion;
 use super::particles::ReadParticles;
 use super::raw_tables::RawTables;
@@ -45,7 +46,8 @@ pub(super) fn boundaries(
         let reference =
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
         let (nodes, outside) = (boundary.nodes, boundary.outside);
-        let boundary = Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside };
+        let temperature = heat::temperature(boundary, &table, (materials, born), faults);
+        let boundary = Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside, temperature };
         alone(&boundary, faults);
         boundaries.push(boundary);
     }

@@ -190,6 +190,7 @@ impl SetReader<'_> {
             let mut like = self.particle(material, entry.position.get(), 0.0);
             like.velocity = entry.velocity.map_or(like.velocity, |it| it.get());
             like.angular_velocity = entry.angular_velocity.map_or(like.angular_velocity, |it| it.get());
+            like.temperature = entry.temperature.map(Positive::get).or(like.temperature);
             let mut one = self.like(like, size, entry.orientation);
             one.density = entry.density.map(Positive::get).or(one.density);
             placed.push(one);
@@ -226,6 +227,7 @@ impl SetReader<'_> {
             return None;
         }
         let own = |key: &str| match key {
+            "temperature" => column("temperature").is_some(),
             "material" => !rows.label.is_empty(),
             "density" => column("density").is_some(),
             "velocity" => ["vx", "vy", "vz"].into_iter().any(|name| column(name).is_some()),
@@ -242,7 +244,8 @@ impl SetReader<'_> {
             };
             let radius = column("radius").map_or(0.0, |radius| radius[row]);
             let density = column("density").map(|density| density[row]);
-            for (key, value) in [("radius", radius), ("density", density.unwrap_or(1.0))] {
+            let temperature = column("temperature").map_or(1.0, |it| it[row]);
+            for (key, value) in [("radius", radius), ("density", density.unwrap_or(1.0)), ("temperature", temperature)] {
                 if value <= 0.0 {
                     wrong(key, format!("{value:?}"), "a number above 0");
                     return None;
@@ -263,6 +266,7 @@ impl SetReader<'_> {
             let mut like = self.particle(material, three(["x", "y", "z"], row)?, radius);
             like.velocity = three(["vx", "vy", "vz"], row).unwrap_or(like.velocity);
             like.angular_velocity = three(["wx", "wy", "wz"], row).unwrap_or(like.angular_velocity);
+            like.temperature = column("temperature").map(|it| it[row]).or(like.temperature);
             let mut one = self.like(like, Size::Bounding(radius), orientation);
             one.density = density.or(one.density);
             placed.push(one);

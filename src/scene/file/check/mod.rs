@@ -10,6 +10,7 @@ mod contacts;
 mod damping;
 mod exchange;
 mod finding;
+mod heat;
 mod motion;
 mod named_tables;
 mod particles;
@@ -56,6 +57,7 @@ pub(super) fn scene(
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
+    let heat_sources = heat::sources(&written, &born, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
@@ -75,6 +77,7 @@ pub(super) fn scene(
         boundaries,
         damping,
         forces,
+        heat_sources,
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
         domain: written.domain.map(|domain| domain.corners.0),
@@ -140,7 +143,7 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     }
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
-    let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft));
+    let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft)).chain(crate::scene::heat::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);

@@ -6,7 +6,7 @@ use crate::base::document::messages;
 use crate::base::document::{Document, Faults, Part};
 use crate::laws::bond::keys::{BreakageChoice, Keys};
 use crate::laws::contact::{
-    CohesionModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
+    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
 };
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
@@ -14,7 +14,7 @@ use crate::scene::cell::CellKeys;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
-    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
+    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, MaterialTable, ParticlesTable, RunTable,
     TABLES, Triple,
 };
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
@@ -48,6 +48,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) damping: Named<DampingTable>,
     /// `[force.<name>]`
     pub(super) forces: Named<ForceTable>,
+    /// `[heat_source.<name>]`
+    pub(super) heat_sources: Named<HeatSourceTable>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
     /// `[insertion.<name>]`
@@ -80,6 +82,8 @@ pub(super) struct Law {
     pub(super) rolling: RollingModel,
     /// Cohesion sub-model.
     pub(super) cohesion: CohesionModel,
+    /// Heat sub-model, where heat flows.
+    pub(super) heat: Option<HeatModel>,
 }
 
 /// How many materials a scene may have: what each two have in common is kept as a square.
@@ -144,6 +148,7 @@ impl RawTables {
         let boundaries = boundaries(document, models, faults);
         let damping = all(document, "damping", faults);
         let forces = all(document, "force", faults);
+        let heat_sources = all(document, "heat_source", faults);
         let regions = all(document, "region", faults);
         let insertions = all(document, "insertion", faults);
         let outlets = all(document, "outlet", faults);
@@ -172,6 +177,7 @@ impl RawTables {
             hints: models.shapes.iter().map(|row| row.hint).collect(),
             damping,
             forces,
+            heat_sources,
             regions,
             insertions,
             outlets,
@@ -257,6 +263,7 @@ fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law>
         let tangential = model(document, &path, "tangential", &models.tangential, faults);
         let rolling = model(document, &path, "rolling", &models.rolling, faults);
         let cohesion = model(document, &path, "cohesion", &models.cohesion, faults);
+        let heat = model(document, &path, "heat", &models.heat, faults);
         if let (Some(table), Some(normal)) = (table, normal) {
             let law = Law {
                 table,
@@ -264,6 +271,7 @@ fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law>
                 tangential: tangential.unwrap_or(SMOOTH),
                 rolling: rolling.unwrap_or(ROLLING_FREELY),
                 cohesion: cohesion.unwrap_or(DRY),
+                heat,
             };
             laws.push((name, law));
         }

@@ -6,7 +6,7 @@ use super::place::Place;
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::geometry::Lattice;
-use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::base::quantity::{MaterialIndex, ParticleId, Positive, SetIndex};
 use crate::laws::contact::Material;
 use crate::scene::Source;
 use crate::scene::clump::ClumpKeys;
@@ -169,6 +169,7 @@ impl SetReader<'_> {
             particle.density = entry.density.map_or(particle.density, crate::base::quantity::Positive::get);
             particle.velocity = or(entry.velocity, particle.velocity);
             particle.angular_velocity = or(entry.angular_velocity, particle.angular_velocity);
+            particle.temperature = entry.temperature.map(Positive::get).or(particle.temperature);
             newborn.push(Unnumbered { id: entry.id, is_of_clump: false, particle });
         }
         newborn
@@ -231,11 +232,12 @@ impl SetReader<'_> {
             |columns: [Option<&[f64]>; 3], row: usize| columns.map(|column| column.map_or(0.0, |column| column[row]));
         let (position, radius) = (triple(["x", "y", "z"]), column("radius"));
         let (velocity, spin) = (triple(["vx", "vy", "vz"]), triple(["wx", "wy", "wz"]));
-        let (id, density) = (column("id"), column("density"));
+        let (id, density, temperature) = (column("id"), column("density"), column("temperature"));
         let own = |key: &str| match key {
             "material" => !rows.label.is_empty(),
             "density" => density.is_some(),
             "velocity" => velocity.is_some(),
+            "temperature" => temperature.is_some(),
             _ => spin.is_some(),
         };
         self.tell_unread(own, faults);
@@ -246,10 +248,17 @@ impl SetReader<'_> {
             particle.density = density.map_or(particle.density, |density| density[row]);
             particle.velocity = velocity.map_or(particle.velocity, |velocity| at(velocity, row));
             particle.angular_velocity = spin.map_or(particle.angular_velocity, |spin| at(spin, row));
+            particle.temperature = temperature.map(|temperature| temperature[row]).or(particle.temperature);
             let number = id.map(|id| id[row]);
             for (key, found, expected, fine) in [
                 ("radius", particle.radius, "a number above 0", particle.radius > 0.0),
                 ("density", particle.density, "a number above 0", particle.density > 0.0),
+                (
+                    "temperature",
+                    particle.temperature.unwrap_or(1.0),
+                    "a number above 0",
+                    particle.temperature.is_none_or(|it| it > 0.0),
+                ),
                 ("id", number.unwrap_or(0.0), "a whole number from 0 to 4294967295", whole(number)),
             ] {
                 if !fine && faults.count() < before + REPORTED {
@@ -316,6 +325,7 @@ impl SetReader<'_> {
             position,
             velocity: self.written.velocity.unwrap_or_default().0,
             angular_velocity: self.written.angular_velocity.unwrap_or_default().0,
+            temperature: self.written.temperature.map(Positive::get),
         }
     }
 
@@ -331,12 +341,13 @@ impl SetReader<'_> {
 
     /// Tells keys that are for particles that have none of their own, where each has.
     pub(super) fn tell_unread(&self, own: impl Fn(&str) -> bool, faults: &mut Faults) {
-        let ParticlesTable { material, density, velocity, angular_velocity, orientation, .. } = self.written;
+        let ParticlesTable { material, density, velocity, angular_velocity, temperature, orientation, .. } = self.written;
         let written = [
             ("material", material.is_some()),
             ("density", density.is_some()),
             ("velocity", velocity.is_some()),
             ("angular_velocity", angular_velocity.is_some()),
+            ("temperature", temperature.is_some()),
             ("orientation", orientation.is_some()),
         ];
         for (key, _) in written.into_iter().filter(|(key, given)| *given && own(key)) {
@@ -358,6 +369,7 @@ pub(super) fn of_all(list: &[ListEntry], key: &str) -> bool {
         "density" => entry.density.is_some(),
         "velocity" => entry.velocity.is_some(),
         "angular_velocity" => entry.angular_velocity.is_some(),
+        "temperature" => entry.temperature.is_some(),
         _ => entry.orientation.is_some(),
     })
 }

@@ -22,6 +22,8 @@ pub(in crate::scene::file) struct ParticlesTable {
     pub(in crate::scene::file) velocity: Option<Triple>,
     /// Angular velocity of those that have none of their own \[rad/s\].
     pub(in crate::scene::file) angular_velocity: Option<Triple>,
+    /// Temperature of those that have none of their own \[K\].
+    pub(in crate::scene::file) temperature: Option<Positive>,
     /// The clump that each of them is; absent: spheres.
     pub(in crate::scene::file) clump: Option<String>,
     /// How the clumps are turned that have no orientation of their own.
@@ -64,4 +66,6 @@ pub(in crate::scene::file) struct ListEntry {
     pub(in crate::scene::file) velocity: Option<Triple>,
     /// Its angular velocity \[rad/s\].
     pub(in crate::scene::file) angular_velocity: Option<Triple>,
+    /// Its temperature \[K\].
+    pub(in crate::scene::file) temperature: Option<Positive>,
 }
