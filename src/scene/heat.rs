@@ -1,6 +1,6 @@
 //! Temperatures: of particles and boundaries at the start, and what warms particles from outside.
 
-use super::{ContactLaw, SceneDraft};
+use super::{AxisMotion, Boundary, Cell, ContactLaw, NodeMotion, SceneDraft};
 use crate::base::document::Mistake;
 use crate::laws::contact::{MaterialPair, Missing};
 use std::collections::BTreeSet;
@@ -34,6 +34,13 @@ impl BoundaryTemperature {
             Self::Held(temperature) | Self::Driven(temperature) | Self::Body { temperature, .. } => Some(temperature),
         }
     }
+}
+
+/// `[heat]`
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HeatSettings {
+    /// Whether heat flows while nothing moves.
+    pub frozen: bool,
 }
 
 /// `[heat_source.<name>]`: what warms or cools each of some particles.
@@ -120,6 +127,9 @@ fn without_heat(scene: &SceneDraft) -> Vec<Objection> {
     };
     let mut found: Vec<_> =
         boundaries.map(|boundary| (format!("boundary.{}", boundary.name), "temperature", what())).collect();
+    if scene.heat.frozen {
+        found.push(("heat".to_owned(), "frozen", what()));
+    }
     if let Some(particle) = scene.particles.iter().find(|particle| particle.temperature.is_some()) {
         let set = scene.sets.get(particle.set.index()).map_or("", |set| set);
         found.push((format!("particles.{set}"), "temperature", what()));
@@ -148,6 +158,18 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
     }
     for boundary in scene.boundaries.iter().filter(|it| it.outside == super::Outside::Remove) {
         refuse(format!("boundary.{}", boundary.name), "outside", "particles that go take no heat along yet");
+    }
+    if scene.heat.frozen {
+        let moves = |boundary: &&Boundary| {
+            let stays = |axis: &AxisMotion| (axis.is_fixed() && axis.conveys() == 0.0) || axis.takes_place();
+            !boundary.axes.iter().all(stays) || boundary.nodes != NodeMotion::Rigid
+        };
+        if let Some(boundary) = scene.boundaries.iter().find(moves) {
+            refuse(format!("boundary.{}", boundary.name), "motion", "nothing moves in a scene with [heat] frozen = true");
+        }
+        if scene.cell.as_ref().is_some_and(Cell::moves) {
+            refuse("cell".to_owned(), "motion", "nothing moves in a scene with [heat] frozen = true");
+        }
     }
     found
 }

@@ -42,7 +42,7 @@ pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
-pub use heat::{BoundaryTemperature, HeatGiven, HeatSource};
+pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
 pub use output::Output;
@@ -116,6 +116,8 @@ pub struct SceneDraft {
     pub damping: Vec<Damping>,
     /// Constant forces on particles.
     pub forces: Vec<AppliedForce>,
+    /// How heat flows.
+    pub heat: HeatSettings,
     /// What warms or cools particles, in the order of the file.
     pub heat_sources: Vec<HeatSource>,
     /// Parts of space of which stress, porosity and motion are outputs, in the order of the file.

@@ -19,6 +19,10 @@ impl Simulation {
         let step = progress.step;
         let moment = self.begin_step(step);
         let progress = Progress { time: moment.to, ..progress };
+        if self.scene.heat.frozen {
+            self.transfer_heat(&progress, context);
+            return Ok(());
+        }
         self.book_first_kick(step);
         let way = self.kick_and_drift(step, context);
         self.move_boundaries(progress);

@@ -5,7 +5,7 @@ use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::{Boundary, BoundaryTemperature, Scene};
 
 /// Whether heat flows into a boundary: it has a temperature, or its particles do.
-pub(super) fn takes_heat(boundary: &Boundary) -> bool {
+pub(crate) fn takes_heat(boundary: &Boundary) -> bool {
     boundary.temperature != BoundaryTemperature::None || !boundary.shape.members().is_empty()
 }
 

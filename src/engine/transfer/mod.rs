@@ -11,12 +11,11 @@ mod flows;
 
 use crate::base::threads::Context;
 use crate::engine::contacts::Pass;
-use crate::engine::run_error::RunError;
 use crate::engine::state::{GONE, Heat, State};
 use crate::laws::motion::Progress;
 use crate::scene::{HeatGiven, Scene};
 pub(crate) use begin::begun;
-pub(crate) use boundaries::{begin, end, put};
+pub(crate) use boundaries::{begin, end, put, takes_heat};
 use conduction::{BondConduction, Conduction};
 use flows::Flows;
 
@@ -47,7 +46,7 @@ impl Transfer {
         scene.has_heat().then(|| Self {
             laws: (0..scene.contacts.len()).map(|law| Conduction::of(scene, law)).collect(),
             bonds: (0..scene.bonds.len()).map(|bond| BondConduction::of(scene, bond)).collect(),
-            takes: scene.boundaries.iter().map(boundaries::takes_heat).collect(),
+            takes: scene.boundaries.iter().map(takes_heat).collect(),
             flows: Flows::default(),
         })
     }
@@ -140,15 +139,4 @@ pub(crate) fn longest_step(heat: Option<&Heat>) -> f64 {
 pub(crate) fn residual(heat: &Heat) -> f64 {
     let boundaries: f64 = heat.boundaries.iter().map(|boundary| boundary.heat()).sum();
     heat.energy() + boundaries - heat.given
-}
-
-/// The body that exchanges most heat for its capacity, for the message of a time step that is too long.
-pub(crate) fn refuse(heat: &Heat, step: f64, time: f64) -> Option<RunError> {
-    let stable = longest_step(Some(heat));
-    (step > stable).then(|| RunError::StepTooLong {
-        step,
-        stable,
-        by: "conduction of heat between bodies".to_owned(),
-        time,
-    })
 }

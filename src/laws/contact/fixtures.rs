@@ -10,6 +10,7 @@ use super::{
     TangentialModel, coefficients, normal, rolling, tangential,
 };
 use crate::base::number::{Number, Vector};
+use crate::laws::contact::Thermal;
 use crate::base::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
 
 /// Friction that takes all there is.

@@ -27,7 +27,7 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Accuracy, Cell, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{Accuracy, Cell, Derived, HeatSettings, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
 use crate::scene::{cell, clump};
 use finding::Finding;
 use particles::ReadParticles;
@@ -77,6 +77,7 @@ pub(super) fn scene(
         boundaries,
         damping,
         forces,
+        heat: HeatSettings { frozen: written.heat.frozen },
         heat_sources,
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),

@@ -14,7 +14,7 @@ use crate::scene::cell::CellKeys;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
-    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, MaterialTable, ParticlesTable, RunTable,
+    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable, ParticlesTable, RunTable,
     TABLES, Triple,
 };
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
@@ -48,6 +48,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) damping: Named<DampingTable>,
     /// `[force.<name>]`
     pub(super) forces: Named<ForceTable>,
+    /// `[heat]`
+    pub(super) heat: HeatTable,
     /// `[heat_source.<name>]`
     pub(super) heat_sources: Named<HeatSourceTable>,
     /// `[region.<name>]`
@@ -148,6 +150,7 @@ impl RawTables {
         let boundaries = boundaries(document, models, faults);
         let damping = all(document, "damping", faults);
         let forces = all(document, "force", faults);
+        let heat = document.read("heat", faults);
         let heat_sources = all(document, "heat_source", faults);
         let regions = all(document, "region", faults);
         let insertions = all(document, "insertion", faults);
@@ -161,7 +164,7 @@ impl RawTables {
         if faults.count() > 0 {
             return None;
         }
-        let (about, run, gravity, output) = (about?, run?, gravity?, output?);
+        let (about, run, gravity, heat, output) = (about?, run?, gravity?, heat?, output?);
         let domain = domain.flatten();
         Some(Self {
             about,
@@ -177,6 +180,7 @@ impl RawTables {
             hints: models.shapes.iter().map(|row| row.hint).collect(),
             damping,
             forces,
+            heat,
             heat_sources,
             regions,
             insertions,

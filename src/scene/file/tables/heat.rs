@@ -58,6 +58,15 @@ impl<'de> Deserialize<'de> for TemperatureKey {
     }
 }
 
+/// `[heat]`
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene::file) struct HeatTable {
+    /// Whether heat flows while nothing moves.
+    #[serde(default)]
+    pub(in crate::scene::file) frozen: bool,
+}
+
 /// `[heat_source.<name>]`
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -11,7 +11,7 @@ pub(super) use crate::laws::surface::Selection;
 pub(in crate::scene) use body::Inertia;
 pub(super) use body::{Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
-pub(super) use heat::{HeatSourceTable, TemperatureKey};
+pub(super) use heat::{HeatSourceTable, HeatTable, TemperatureKey};
 pub(super) use particles::{ListEntry, ParticlesTable};
 pub(super) use values::{MaterialPairs, StepKey};
 
@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 22] = [
+pub(in crate::scene::file) const TABLES: [&str; 23] = [
     "about",
     "run",
     "gravity",
@@ -38,6 +38,7 @@ pub(in crate::scene::file) const TABLES: [&str; 22] = [
     "boundary",
     "damping",
     "force",
+    "heat",
     "heat_source",
     "region",
     "insertion",
