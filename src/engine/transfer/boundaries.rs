@@ -41,8 +41,9 @@ pub(super) fn advance(scene: &Scene, heat: &mut Heat, progress: &Progress) {
             moved.applied += progress.step * (start + (end - start) * middle);
             moved.rise = (moved.heat() + moved.applied) / moved.capacity;
         } else if let BoundaryTemperature::Driven(_) = boundary.temperature {
-            let now = if progress.is_last() { end } else { start + (end - start) * share };
-            moved.rise = now - moved.initial;
+            // Small differences are not to drown in the temperature.
+            let left = if progress.is_last() { 0.0 } else { (start - end) * (1.0 - share) };
+            moved.rise = (end - moved.initial) + left;
         }
     }
 }
