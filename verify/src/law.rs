@@ -181,6 +181,8 @@ fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static
         "pull_off_force" => pair.pull_off_force = NonNegative::new(value).map(Some).ok_or("0 or an attraction")?,
         "adhesion_stiffness_ratio" => pair.adhesion_stiffness_ratio = non_negative()?,
         "critical_stokes_number" => pair.critical_stokes_number = positive()?,
+        "conductivity" => pair.conductivity = positive()?,
+        "heat_transfer_coefficient" => pair.heat_transfer_coefficient = non_negative()?,
         _ => pair.maximum_restitution = restitution()?,
     }
     Ok(())
