@@ -5,6 +5,7 @@ pub(crate) mod bonds;
 pub(crate) mod boundaries;
 pub(crate) mod cell;
 pub(crate) mod clumps;
+pub(crate) mod columns;
 pub(crate) mod contacts;
 pub(crate) mod energy;
 pub(crate) mod flow;

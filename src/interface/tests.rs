@@ -38,7 +38,6 @@ fn draft() -> SceneDraft {
         position: [0.0, 0.0, 1.0],
         velocity: [0.0; 3],
         angular_velocity: [0.0; 3],
-        temperature: None,
     };
     let stone = Material { name: "stone".to_owned(), density: 6.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default() };
     use AxisMotion::{Driven, Fixed, Prescribed};

@@ -2,6 +2,7 @@
 
 use super::{AxisMotion, Boundary, Cell, ContactLaw, NodeMotion, SceneDraft};
 use crate::base::document::Mistake;
+use crate::laws::column::TEMPERATURE;
 use crate::laws::contact::{MaterialPair, Missing};
 use std::collections::BTreeSet;
 
@@ -86,6 +87,11 @@ impl SceneDraft {
         bonds || !self.heat_sources.is_empty() || self.contacts.iter().any(|law| law.heat.is_some())
     }
 
+    /// Temperatures of the particles at the start, where heat flows \[K\].
+    pub(crate) fn temperatures(&self) -> Option<&[f64]> {
+        Some(&self.columns[self.column(TEMPERATURE.name)?].particles)
+    }
+
     /// Heat capacity of a particle by itself, where its material has a specific heat \[J/K\].
     pub(crate) fn heat_capacity(&self, particle: usize) -> Option<f64> {
         let particle = &self.particles[particle];
@@ -101,19 +107,19 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
     let mut found = unsupported(scene);
     found.extend(sources(scene));
     found.extend(laws(scene));
-    if let Some(particle) = scene.particles.iter().find(|particle| particle.temperature.is_none()) {
-        let set = scene.sets.get(particle.set.index()).map_or("", |set| set);
-        let expected = format!("a temperature [K] of particle {}: heat flows in this scene", particle.id.0);
-        found.push((format!("particles.{set}"), "temperature", Mistake::Missing { expected }));
+    if scene.temperatures().is_none() {
+        let expected = "a temperature [K] of each particle: heat flows in this scene".to_owned();
+        found.push(("particles".to_owned(), "temperature", Mistake::Missing { expected }));
     }
     for (index, material) in scene.materials.iter().enumerate() {
-        let is_used = scene.particles.iter().any(|particle| particle.material.index() == index);
+        let here = scene.particles.iter().map(|particle| particle.material);
+        let mut present = here.chain(scene.insertions.iter().map(|insertion| insertion.material));
+        let is_used = present.any(|material| material.index() == index);
         if is_used && material.thermal.specific_heat.is_none() {
             let expected = "particles of this material take up heat".to_owned();
             found.push((format!("material.{}", material.name), "specific_heat", Mistake::Missing { expected }));
         }
     }
-    found.extend(groups(scene));
     found
 }
 
@@ -130,10 +136,6 @@ fn without_heat(scene: &SceneDraft) -> Vec<Objection> {
     if scene.heat.frozen {
         found.push(("heat".to_owned(), "frozen", what()));
     }
-    if let Some(particle) = scene.particles.iter().find(|particle| particle.temperature.is_some()) {
-        let set = scene.sets.get(particle.set.index()).map_or("", |set| set);
-        found.push((format!("particles.{set}"), "temperature", what()));
-    }
     found
 }
 
@@ -147,17 +149,8 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
     if scene.particles.first().is_some_and(|particle| particle.shape != Default::default()) {
         refuse("run".to_owned(), "plane_particles", "conduction of discs is not modelled");
     }
-    if let Some(insertion) = scene.insertions.first() {
-        refuse(format!("insertion.{}", insertion.name), "", "particles that come bring no heat yet");
-    }
-    if let Some(outlet) = scene.outlets.first() {
-        refuse(format!("outlet.{}", outlet.name), "", "particles that go take no heat along yet");
-    }
-    if scene.outside == super::Outside::Remove {
-        refuse("domain".to_owned(), "outside", "particles that go take no heat along yet");
-    }
-    for boundary in scene.boundaries.iter().filter(|it| it.outside == super::Outside::Remove) {
-        refuse(format!("boundary.{}", boundary.name), "outside", "particles that go take no heat along yet");
+    if let Some(insertion) = scene.insertions.first().filter(|_| scene.heat.frozen) {
+        refuse(format!("insertion.{}", insertion.name), "", "nothing moves in a scene with [heat] frozen = true");
     }
     if scene.heat.frozen {
         let moves = |boundary: &&Boundary| {
@@ -188,29 +181,6 @@ fn sources(scene: &SceneDraft) -> Vec<Objection> {
         Some((format!("heat_source.{}", source.name), "particles", Mistake::Unexpected { found, expected }))
     };
     scene.heat_sources.iter().filter_map(of_group).collect()
-}
-
-/// Groups whose particles differ, where their common temperature is that of their particles.
-fn groups(scene: &SceneDraft) -> Vec<Objection> {
-    let differs = |members: &[u32]| {
-        let temperature = |member: &u32| scene.particles[*member as usize].temperature;
-        members.iter().any(|member| temperature(member) != temperature(&members[0]))
-    };
-    let boundaries = scene.boundaries.iter().filter(|it| it.temperature == BoundaryTemperature::None);
-    let groups = boundaries.filter(|it| !it.shape.members().is_empty() && differs(it.shape.members()));
-    let mut found: Vec<_> = groups
-        .map(|boundary| {
-            let expected = "one temperature [K] of the group: those of its particles differ".to_owned();
-            (format!("boundary.{}", boundary.name), "temperature", Mistake::Missing { expected })
-        })
-        .collect();
-    let spheres = |clump| scene.spheres_of(clump).map(|index| index as u32).collect::<Vec<_>>();
-    if scene.clumps.iter().any(|clump| differs(&spheres(clump))) {
-        let (what, expected) = ("the spheres of a clump have several temperatures", "one temperature of each clump");
-        let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
-        found.push(("clump".to_owned(), "", mistake));
-    }
-    found
 }
 
 /// Properties that laws need of the materials between which heat flows, and laws that do not know the area of contact.
@@ -245,11 +215,12 @@ fn conducting(scene: &SceneDraft) -> Vec<(usize, usize)> {
     let count = scene.materials.len();
     let (mut particles, mut walls) = (vec![false; count], vec![false; count]);
     scene.particles.iter().for_each(|particle| particles[particle.material.index()] = true);
+    scene.insertions.iter().for_each(|insertion| particles[insertion.material.index()] = true);
     for boundary in scene.boundaries.iter().filter(|it| it.temperature != BoundaryTemperature::None) {
         boundary.shape.material().into_iter().for_each(|material| walls[material.index()] = true);
     }
     let meet = |a: usize, b: usize| particles[a] && (particles[b] || walls[b]) || particles[b] && walls[a];
-    let several = scene.particles.len() > 1;
+    let several = scene.particles.len() > 1 || !scene.insertions.is_empty();
     let flows = |&(a, b): &(usize, usize)| meet(a, b) && (several || walls[a] || walls[b]);
     (0..count).flat_map(|a| (a..count).map(move |b| (a, b))).filter(flows).collect()
 }

@@ -10,6 +10,7 @@ mod boundary;
 pub(crate) mod cell;
 mod checked;
 pub(crate) mod clump;
+mod column;
 mod damping;
 pub mod exchange;
 pub(crate) mod file;
@@ -38,6 +39,7 @@ pub use boundary::Boundary;
 pub use cell::{Cell, CellMotion, StressServo};
 pub use checked::Scene;
 pub use clump::{Clump, ClumpShape, OrientationKey};
+pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
@@ -71,7 +73,6 @@ use crate::laws::contact::{HeatModel, LawChoice, Material, PairProperties, Schem
 /// let marble = Particle {
 ///     id: ParticleId(1), set: SetIndex(0), material: MaterialIndex(0), shape: Default::default(), radius: 0.01,
 ///     density: 2500.0, position: [0.0, 0.0, 0.02], velocity: [0.0; 3], angular_velocity: [0.0; 3],
-///     temperature: None,
 /// };
 /// let mut draft = SceneDraft {
 ///     gravity: [0.0, 0.0, -9.81],
@@ -106,6 +107,8 @@ pub struct SceneDraft {
     pub sets: Vec<String>,
     /// All particles of all sets, by ascending id.
     pub particles: Vec<Particle>,
+    /// Declared columns that the scene asks for, and what they begin with.
+    pub columns: Vec<ColumnStart>,
     /// Shapes of clumps, in the order of the file.
     pub clump_shapes: Vec<ClumpShape>,
     /// Clumps, whose spheres are among the particles.
@@ -284,8 +287,6 @@ pub struct Particle {
     pub velocity: [f64; 3],
     /// Angular velocity \[rad/s\].
     pub angular_velocity: [f64; 3],
-    /// Temperature \[K\]; there where heat flows.
-    pub temperature: Option<f64>,
 }
 
 impl Particle {

@@ -1,6 +1,7 @@
 //! The sub-models, rules of breakage and shapes that scenes may name.
 
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
+use crate::laws::column::{Column, TEMPERATURE};
 use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
     RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
@@ -33,6 +34,8 @@ pub struct Models {
     pub(crate) breakage: Vec<&'static BreakageRow>,
     /// Shapes of boundaries.
     pub(crate) shapes: Vec<&'static ShapeRow>,
+    /// Columns of particles that scenes may ask for.
+    pub(crate) columns: Vec<&'static Column>,
 }
 
 impl Default for Models {
@@ -52,6 +55,7 @@ impl Models {
             heat: contact::heat::STANDARD.to_vec(),
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
+            columns: vec![&TEMPERATURE],
         }
     }
 
@@ -94,6 +98,12 @@ impl Models {
     /// The same and a shape of boundaries, in place of one of the same key.
     pub fn with_shape<K: ShapeKeys>(mut self) -> Self {
         put(&mut self.shapes, ShapeRow::of::<K>(), |row| row.key);
+        self
+    }
+
+    /// The same and a column of particles, in place of one of the same name.
+    pub fn with_column(mut self, column: &'static Column) -> Self {
+        put(&mut self.columns, column, |column| column.name);
         self
     }
 

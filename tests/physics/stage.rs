@@ -77,7 +77,6 @@ pub(crate) fn sphere(radius: f64, density: f64) -> Particle {
         position: [0.0; 3],
         velocity: [0.0; 3],
         angular_velocity: [0.0; 3],
-        temperature: None,
     }
 }
 

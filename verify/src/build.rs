@@ -56,6 +56,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
         sets: (0..case.materials.len()).map(bond::set_name).collect(),
         damping: damping(case, &particles)?,
         forces: forces(case, &index_of)?,
+        columns: heat::columns(case)?,
         heat: HeatSettings { frozen: case.frozen },
         heat_sources: heat::sources(case, &index_of)?,
         particles,
@@ -103,7 +104,6 @@ fn particles(case: &Case) -> Result<Vec<Particle>, Mistake> {
             position: finite(place("position"), particle.position)?,
             velocity: finite(place("velocity"), particle.velocity)?,
             angular_velocity: finite(place("omega"), particle.omega)?,
-            temperature: particle.temperature,
         })
     };
     let all: Vec<Particle> = case.by_id().into_iter().map(one).collect::<Result<_, Mistake>>()?;

@@ -6,7 +6,8 @@ use super::error::{Mistake, VerifyError};
 use super::trajectory::Sample;
 use cograin::contact::heat::overlap_area::{Area, Keys};
 use cograin::contact::{HeatModel, NoKeys};
-use cograin::scene::{Boundary, BoundaryTemperature, HeatGiven, HeatSource, Models};
+use cograin::column::TEMPERATURE;
+use cograin::scene::{Boundary, BoundaryTemperature, ColumnStart, HeatGiven, HeatSource, Models};
 use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -115,6 +116,20 @@ pub(super) fn model(case: &Case) -> Result<Option<HeatModel>, Mistake> {
     };
     let unknown = || Mistake::new("model.heat", format!("expected constriction, overlap_area or transfer, found \"{name}\""));
     found.map(Some).ok_or_else(unknown)
+}
+
+/// The temperatures of the particles of a case, where heat flows.
+pub(super) fn columns(case: &Case) -> Result<Vec<ColumnStart>, Mistake> {
+    if case.model.heat.is_none() {
+        return Ok(Vec::new());
+    }
+    let temperature = |place: usize| {
+        let key = format!("particles[{place}].temperature");
+        let missing = || Mistake::new(key.clone(), "absent; heat flows in this case");
+        Ok(positive(key.clone(), case.particles[place].temperature.ok_or_else(missing)?)?.get())
+    };
+    let particles = case.by_id().into_iter().map(temperature).collect::<Result<_, Mistake>>()?;
+    Ok(vec![ColumnStart { column: &TEMPERATURE, particles, insertions: Vec::new() }])
 }
 
 /// The heat sources of a case, by the places of its particles.

@@ -45,6 +45,7 @@ impl Simulation {
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
         transfer::end(self.state.heat.as_mut(), elapsed);
+        transfer::tell(&self.scene, &mut self.state);
         if let Some(cell) = &self.cell {
             cell.end(&mut self.state, elapsed);
         }

@@ -77,6 +77,7 @@ fn particles(scene: &Scene) -> Particles {
     particles.force = vec![[0.0; 4]; count];
     particles.torque = vec![[0.0; 4]; count];
     particles.owner = vec![0; count];
+    particles.declared = scene.columns.iter().map(|start| start.particles.clone()).collect();
     for (index, boundary) in scene.boundaries.iter().enumerate() {
         for &member in boundary.shape.members() {
             particles.owner[member as usize] = index as u32 + 1;

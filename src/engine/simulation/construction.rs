@@ -15,7 +15,7 @@ use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
 use crate::engine::state::{Foresight, Pace, State, StateFault};
-use crate::engine::transfer::Transfer;
+use crate::engine::transfer::{self, Transfer};
 use crate::laws::bond::creation::Moment;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
@@ -103,6 +103,7 @@ impl Simulation {
 
     /// The evaluation before the first step, and what follows from it.
     pub(super) fn start(&mut self) -> Result<(), RunError> {
+        transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
         self.clear_boundary_loads();
         let context = self.standing();

@@ -8,6 +8,7 @@ use crate::engine::clumps;
 use crate::engine::energy;
 use crate::engine::integration;
 use crate::engine::state::ledger::Source;
+use crate::engine::transfer;
 use crate::laws::bond::creation::Moment;
 use crate::laws::motion::Progress;
 
@@ -91,6 +92,7 @@ impl Simulation {
         let Self { transfer, scene, passes, state, .. } = self;
         if let Some(transfer) = transfer {
             transfer.look((scene, passes), state, context);
+            transfer::tell(scene, state);
         }
     }
 

@@ -25,13 +25,18 @@ pub struct Heat {
     pub flow: Vec<f64>,
     /// The boundaries, in the scene's order.
     pub boundaries: Vec<BoundaryHeat>,
+    /// Numbers of the particles that came, by index less the number of the scene's own: who each entry is of.
+    #[serde(with = "plain")]
+    pub numbers: Vec<u32>,
+    /// What particles that have gone had gained since counting began \[J\].
+    pub departed: f64,
     /// What heat sources gave since counting began \[J\].
     pub given: f64,
     /// Largest sum of the conductances of a body over its heat capacity at the present time \[1/s\].
     pub rate: f64,
 }
 
-clone_in_place!(Heat { initial, capacity, gained, flow, boundaries, given, rate });
+clone_in_place!(Heat { initial, capacity, gained, flow, boundaries, numbers, departed, given, rate });
 
 /// Temperature of a boundary, and heat that the particles gave to it. Zeros where it has no temperature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -84,9 +89,9 @@ impl Heat {
         if self.capacity[index] > 0.0 { self.gained[index] / self.capacity[index] } else { 0.0 }
     }
 
-    /// Heat that particles and clumps gained since counting began \[J\].
+    /// Heat that particles and clumps gained since counting began, or since they came, those that have gone included \[J\].
     pub fn energy(&self) -> f64 {
-        self.gained.iter().sum()
+        self.gained.iter().sum::<f64>() + self.departed
     }
 
     /// Counts heat from here.
@@ -99,16 +104,15 @@ impl Heat {
             boundary.initial = boundary.temperature();
             (boundary.rise, boundary.before, boundary.present, boundary.applied) = (0.0, 0.0, 0.0, 0.0);
         }
-        self.given = 0.0;
+        (self.given, self.departed) = (0.0, 0.0);
     }
 
-    /// Whether it can be that of a scene of which `other` is.
-    pub(super) fn check(&self, other: &Self) -> Result<(), StateFault> {
-        let count = other.initial.len();
+    /// Whether it can be that of a scene of which `other` is, with so many indices of particles; `stay`: no particle comes or goes.
+    pub(super) fn check(&self, other: &Self, count: usize, stay: bool) -> Result<(), StateFault> {
         let columns = [&self.initial, &self.capacity, &self.gained, &self.flow];
         demand_all(columns.iter().map(|column| column.len() == count), "heat", "an entry for each particle")?;
         columns.iter().try_for_each(|column| all_finite(column, "heat"))?;
-        demand(self.capacity == other.capacity, "heat", 1, "the heat capacities of the scene")?;
+        demand(!stay || self.capacity == other.capacity, "heat", 1, "the heat capacities of the scene")?;
         let boundaries = &self.boundaries;
         demand(boundaries.len() == other.boundaries.len(), "heat", boundaries.len(), "one entry for each boundary")?;
         let numbers = boundaries.iter().flat_map(|it| {
@@ -116,7 +120,7 @@ impl Heat {
             let given = [it.initial, it.rise, it.capacity, it.target, it.target_rate, start, end];
             given.into_iter().chain([it.flow, it.before, it.present, it.mean_flow, it.applied])
         });
-        let numbers: Vec<f64> = numbers.chain([self.given, self.rate]).collect();
+        let numbers: Vec<f64> = numbers.chain([self.given, self.departed, self.rate]).collect();
         all_finite(&numbers, "heat")?;
         let same = boundaries.iter().zip(&other.boundaries).map(|(it, other)| it.capacity == other.capacity);
         demand_all(same, "heat", "the heat capacities of the boundaries")

@@ -8,13 +8,14 @@ mod begin;
 mod boundaries;
 mod conduction;
 mod flows;
+mod renew;
 
 use crate::base::threads::Context;
 use crate::engine::contacts::Pass;
 use crate::engine::state::{GONE, Heat, State};
 use crate::laws::motion::Progress;
 use crate::scene::{HeatGiven, Scene};
-pub(crate) use begin::begun;
+pub(crate) use begin::{begun, take, tell};
 pub(crate) use boundaries::{begin, end, put, takes_heat};
 use conduction::{BondConduction, Conduction};
 use flows::Flows;
@@ -80,6 +81,9 @@ impl Transfer {
 
     /// Sums up what flows between bodies.
     fn conduct(&mut self, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &mut State, context: &Context) {
+        if state.exchange.is_some() {
+            renew::renew(scene, state);
+        }
         self.flows.begin(state, context);
         for (law, list) in self.laws.iter().zip(&state.contacts) {
             if let Some(law) = law {

@@ -99,7 +99,6 @@ fn known<'a>(column: &'a str, extra: &[String]) -> Option<&'a str> {
         "omegax" => Some("wx"),
         "omegay" => Some("wy"),
         "omegaz" => Some("wz"),
-        "f_Temp[0]" | "f_Temp" => Some("temperature"),
         "x" | "y" | "z" | "radius" | "diameter" | "mass" | "ix" | "iy" | "iz" => Some(column),
         _ if POSSIBLE.contains(&column) || extra.iter().any(|name| name == column) => Some(column),
         _ => None,

@@ -19,8 +19,8 @@ use std::io::Read;
 /// Columns that every file must have.
 const NEEDED: [&str; 4] = ["x", "y", "z", "radius"];
 
-/// Columns that a file may have: number, density \[kg/m³\], velocity \[m/s\], angular velocity \[rad/s\], temperature \[K\].
-const POSSIBLE: [&str; 9] = ["id", "density", "vx", "vy", "vz", "wx", "wy", "wz", "temperature"];
+/// Columns that a file may have: number, density \[kg/m³\], velocity \[m/s\], angular velocity \[rad/s\].
+const POSSIBLE: [&str; 8] = ["id", "density", "vx", "vy", "vz", "wx", "wy", "wz"];
 
 /// Memory that a line of a text file takes as it is read, at least \[bytes\].
 const ROW: u64 = 100;

@@ -1,5 +1,6 @@
 //! Sets of clumps: where each is placed, and the spheres that follow.
 
+use super::columns::ByName;
 use super::named_tables::Named;
 use super::place::Place;
 use super::raw_tables::RawTables;
@@ -18,7 +19,7 @@ use std::collections::BTreeMap;
 const TURN: [&str; 4] = ["qw", "qx", "qy", "qz"];
 
 /// Clumps of a set, where they stand in its text or file, and the further columns of its file.
-type Read = (Vec<Placed>, Place, BTreeMap<String, Vec<f64>>);
+type Read = (Vec<Placed>, Place, ByName);
 
 /// How large a clump is.
 #[derive(Clone, Copy)]
@@ -113,7 +114,8 @@ impl SetReader<'_> {
         let ParticlesTable { list, file, lattice, packing, .. } = self.written;
         let fallback = self.clump_material(keys, faults);
         if let Some(list) = list {
-            return Some((self.listed_clumps(list, fallback, faults), Place::Nowhere, BTreeMap::new()));
+            let columns = self.listed_columns(faults);
+            return Some((self.listed_clumps(list, fallback, faults), Place::Nowhere, columns));
         }
         if let Some(file) = file {
             return self.filed_clumps(file, fallback, source, extra, faults);
@@ -190,7 +192,6 @@ impl SetReader<'_> {
             let mut like = self.particle(material, entry.position.get(), 0.0);
             like.velocity = entry.velocity.map_or(like.velocity, |it| it.get());
             like.angular_velocity = entry.angular_velocity.map_or(like.angular_velocity, |it| it.get());
-            like.temperature = entry.temperature.map(Positive::get).or(like.temperature);
             let mut one = self.like(like, size, entry.orientation);
             one.density = entry.density.map(Positive::get).or(one.density);
             placed.push(one);
@@ -227,7 +228,6 @@ impl SetReader<'_> {
             return None;
         }
         let own = |key: &str| match key {
-            "temperature" => column("temperature").is_some(),
             "material" => !rows.label.is_empty(),
             "density" => column("density").is_some(),
             "velocity" => ["vx", "vy", "vz"].into_iter().any(|name| column(name).is_some()),
@@ -244,8 +244,7 @@ impl SetReader<'_> {
             };
             let radius = column("radius").map_or(0.0, |radius| radius[row]);
             let density = column("density").map(|density| density[row]);
-            let temperature = column("temperature").map_or(1.0, |it| it[row]);
-            for (key, value) in [("radius", radius), ("density", density.unwrap_or(1.0)), ("temperature", temperature)] {
+            for (key, value) in [("radius", radius), ("density", density.unwrap_or(1.0))] {
                 if value <= 0.0 {
                     wrong(key, format!("{value:?}"), "a number above 0");
                     return None;
@@ -266,12 +265,11 @@ impl SetReader<'_> {
             let mut like = self.particle(material, three(["x", "y", "z"], row)?, radius);
             like.velocity = three(["vx", "vy", "vz"], row).unwrap_or(like.velocity);
             like.angular_velocity = three(["wx", "wy", "wz"], row).unwrap_or(like.angular_velocity);
-            like.temperature = column("temperature").map(|it| it[row]).or(like.temperature);
             let mut one = self.like(like, Size::Bounding(radius), orientation);
             one.density = density.or(one.density);
             placed.push(one);
         }
-        let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        let columns = self.further_columns(file, &mut rows, extra, faults);
         Some((placed, Place::File(file.to_owned(), rows.lines, rows.around), columns))
     }
 }

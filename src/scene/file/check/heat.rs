@@ -5,15 +5,16 @@ use super::raw_tables::RawTables;
 use super::selection::members;
 use crate::base::document::{Faults, Mistake};
 use crate::base::quantity::{Finite, Positive};
+use crate::laws::column::TEMPERATURE;
 use crate::laws::contact::Material;
 use crate::scene::file::tables::{BoundaryTable, TemperatureKey};
-use crate::scene::{BoundaryTemperature, HeatGiven, HeatSource};
+use crate::scene::{BoundaryTemperature, ColumnStart, HeatGiven, HeatSource};
 
 /// The temperature of a boundary.
 pub(super) fn temperature(
     written: &BoundaryTable,
     table: &str,
-    (materials, born): (&[Material], &ReadParticles),
+    (materials, born, columns): (&[Material], &ReadParticles, &[ColumnStart]),
     faults: &mut Faults,
 ) -> BoundaryTemperature {
     let capacity = written.heat_capacity.map(Positive::get);
@@ -42,7 +43,7 @@ pub(super) fn temperature(
             BoundaryTemperature::None
         }
         (Some(TemperatureKey::DrivenFrom(temperature)), None) => BoundaryTemperature::Driven(temperature),
-        (Some(TemperatureKey::Driven), None) => match mean(materials, born) {
+        (Some(TemperatureKey::Driven), None) => match mean(materials, born, columns) {
             Some(temperature) => BoundaryTemperature::Driven(temperature),
             None => {
                 let expected = "{ driven = .. } with that at the start [K]: there are no particles that have one";
@@ -54,12 +55,12 @@ pub(super) fn temperature(
 }
 
 /// Mean temperature of the particles by their heat capacities \[K\]; none where none has one.
-fn mean(materials: &[Material], born: &ReadParticles) -> Option<f64> {
-    let (mut heat, mut capacity) = (0.0, 0.0);
-    let first = born.particles.iter().find_map(|particle| particle.temperature)?;
-    for particle in &born.particles {
+fn mean(materials: &[Material], born: &ReadParticles, columns: &[ColumnStart]) -> Option<f64> {
+    let temperatures = &columns.iter().find(|start| start.column.name == TEMPERATURE.name)?.particles;
+    let (mut heat, mut capacity, first) = (0.0, 0.0, *temperatures.first()?);
+    for (particle, temperature) in born.particles.iter().zip(temperatures) {
         let own = particle.mass() * materials[particle.material.index()].thermal.specific_heat.unwrap_or(0.0);
-        heat += own * (particle.temperature.unwrap_or(first) - first);
+        heat += own * (temperature - first);
         capacity += own;
     }
     Some(if capacity > 0.0 { first + heat / capacity } else { first })

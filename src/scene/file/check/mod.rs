@@ -5,6 +5,7 @@ mod bonded_pairs;
 mod bonds;
 mod boundaries;
 mod clumps;
+mod columns;
 mod consistency;
 mod contacts;
 mod damping;
@@ -28,7 +29,7 @@ use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
 use crate::scene::{Accuracy, Cell, Derived, HeatSettings, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
-use crate::scene::{cell, clump};
+use crate::scene::{cell, clump, column};
 use finding::Finding;
 use particles::ReadParticles;
 use raw_tables::RawTables;
@@ -49,10 +50,13 @@ pub(super) fn scene(
     check_output(&written.output, &mut faults);
     let pairs = contacts::pairs(&written, &materials, &mut faults);
     let laws = contacts::laws(&written.contacts, &materials, run.scheme, &mut faults);
-    let born = particles::particles(&written, source, &materials, &mut faults, tell);
+    let asked = columns::asked(document, &written.columns);
+    let born = particles::particles(&written, source, (&materials, &asked), &mut faults, tell);
+    faults.so_far()?;
+    let columns = columns::starts(&written, &asked, &born, &mut faults);
     faults.so_far()?;
     let cell = cell_of(&written, &born, &mut faults);
-    let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
+    let boundaries = boundaries::boundaries(&written, source, &materials, (&born, &columns), &mut faults);
     let bonds = bonds::bonds(&written, source, (&born, cell.as_ref()), &boundaries, &run, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
@@ -72,6 +76,7 @@ pub(super) fn scene(
         contacts: laws,
         sets: born.sets,
         particles: born.particles,
+        columns,
         clump_shapes: born.shapes,
         clumps: born.clumps,
         boundaries,
@@ -144,7 +149,8 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     }
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
-    let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft)).chain(crate::scene::heat::objections(draft));
+    let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft));
+    let others = others.chain(column::objections(draft)).chain(crate::scene::heat::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);

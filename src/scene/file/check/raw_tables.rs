@@ -1,10 +1,12 @@
 //! Every table of the text as its own type; from here on only relations between tables can be wrong.
 
+use super::columns;
 use super::named_tables::{Named, all, names};
 use crate::base::document::Mistake;
 use crate::base::document::messages;
 use crate::base::document::{Document, Faults, Part};
 use crate::laws::bond::keys::{BreakageChoice, Keys};
+use crate::laws::column::Column;
 use crate::laws::contact::{
     CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
 };
@@ -42,6 +44,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) particles: Named<ParticlesTable>,
     /// `[boundary.<name>]`
     pub(super) boundaries: Named<BoundaryTable>,
+    /// Columns that scenes may ask for.
+    pub(super) columns: Vec<&'static Column>,
     /// How the key of each shape is written.
     pub(super) hints: Vec<&'static str>,
     /// `[damping.<name>]`
@@ -146,14 +150,14 @@ impl RawTables {
         let contacts = laws(document, models, faults);
         let bonds = bonds(document, models, faults);
         let clumps = all(document, "clump", faults);
-        let particles = all(document, "particles", faults);
+        let particles = columns::particles(document, &models.columns, faults);
         let boundaries = boundaries(document, models, faults);
         let damping = all(document, "damping", faults);
         let forces = all(document, "force", faults);
         let heat = document.read("heat", faults);
         let heat_sources = all(document, "heat_source", faults);
         let regions = all(document, "region", faults);
-        let insertions = all(document, "insertion", faults);
+        let insertions = columns::insertions(document, &models.columns, faults);
         let outlets = all(document, "outlet", faults);
         let meters = all(document, "flow_meter", faults);
         let domain = document.has("domain").then(|| document.read("domain", faults));
@@ -177,6 +181,7 @@ impl RawTables {
             clumps,
             particles,
             boundaries,
+            columns: models.columns.clone(),
             hints: models.shapes.iter().map(|row| row.hint).collect(),
             damping,
             forces,

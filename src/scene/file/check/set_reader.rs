@@ -1,12 +1,14 @@
 //! The particles of one set, before they have numbers.
 
+use super::columns::ByName;
 use super::contacts::unknown_material;
 use super::named_tables::Named;
 use super::place::Place;
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::geometry::Lattice;
-use crate::base::quantity::{MaterialIndex, ParticleId, Positive, SetIndex};
+use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::laws::column::Column;
 use crate::laws::contact::Material;
 use crate::scene::Source;
 use crate::scene::clump::ClumpKeys;
@@ -46,10 +48,12 @@ pub(super) struct SetReader<'a> {
     pub(super) shapes: &'a [ClumpShape],
     /// What is written about each of them.
     pub(super) keys: &'a Named<ClumpKeys>,
+    /// Columns that the scene asks for.
+    pub(super) columns: &'a [&'static Column],
 }
 
-/// The particles of a set, the clumps that they are spheres of, their place, and the columns that damping asks for.
-pub(super) type ReadSet = (Vec<Unnumbered>, Vec<Clump>, Place, BTreeMap<String, Vec<f64>>);
+/// The particles of a set, the clumps that they are spheres of, their place, and the columns that damping or the scene asks for.
+pub(super) type ReadSet = (Vec<Unnumbered>, Vec<Clump>, Place, ByName);
 
 impl SetReader<'_> {
     /// Reads the set.
@@ -69,7 +73,7 @@ impl SetReader<'_> {
         }
         let ParticlesTable { list, file, lattice, packing, .. } = self.written;
         if let Some(list) = list {
-            return (self.listed(list, faults), Vec::new(), Place::List, BTreeMap::new());
+            return (self.listed(list, faults), Vec::new(), Place::List, self.listed_columns(faults));
         }
         if let Some(file) = file {
             return self.filed(file, source, extra, faults);
@@ -169,7 +173,6 @@ impl SetReader<'_> {
             particle.density = entry.density.map_or(particle.density, crate::base::quantity::Positive::get);
             particle.velocity = or(entry.velocity, particle.velocity);
             particle.angular_velocity = or(entry.angular_velocity, particle.angular_velocity);
-            particle.temperature = entry.temperature.map(Positive::get).or(particle.temperature);
             newborn.push(Unnumbered { id: entry.id, is_of_clump: false, particle });
         }
         newborn
@@ -232,12 +235,11 @@ impl SetReader<'_> {
             |columns: [Option<&[f64]>; 3], row: usize| columns.map(|column| column.map_or(0.0, |column| column[row]));
         let (position, radius) = (triple(["x", "y", "z"]), column("radius"));
         let (velocity, spin) = (triple(["vx", "vy", "vz"]), triple(["wx", "wy", "wz"]));
-        let (id, density, temperature) = (column("id"), column("density"), column("temperature"));
+        let (id, density) = (column("id"), column("density"));
         let own = |key: &str| match key {
             "material" => !rows.label.is_empty(),
             "density" => density.is_some(),
             "velocity" => velocity.is_some(),
-            "temperature" => temperature.is_some(),
             _ => spin.is_some(),
         };
         self.tell_unread(own, faults);
@@ -248,17 +250,10 @@ impl SetReader<'_> {
             particle.density = density.map_or(particle.density, |density| density[row]);
             particle.velocity = velocity.map_or(particle.velocity, |velocity| at(velocity, row));
             particle.angular_velocity = spin.map_or(particle.angular_velocity, |spin| at(spin, row));
-            particle.temperature = temperature.map(|temperature| temperature[row]).or(particle.temperature);
             let number = id.map(|id| id[row]);
             for (key, found, expected, fine) in [
                 ("radius", particle.radius, "a number above 0", particle.radius > 0.0),
                 ("density", particle.density, "a number above 0", particle.density > 0.0),
-                (
-                    "temperature",
-                    particle.temperature.unwrap_or(1.0),
-                    "a number above 0",
-                    particle.temperature.is_none_or(|it| it > 0.0),
-                ),
                 ("id", number.unwrap_or(0.0), "a whole number from 0 to 4294967295", whole(number)),
             ] {
                 if !fine && faults.count() < before + REPORTED {
@@ -269,8 +264,19 @@ impl SetReader<'_> {
             }
             newborn.push(Unnumbered { id: number.map(|number| number as u32), is_of_clump: false, particle });
         }
-        let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        let columns = self.further_columns(file, &mut rows, extra, faults);
         (newborn, Vec::new(), Place::File(file.to_owned(), rows.lines, rows.around), columns)
+    }
+
+    /// What a file has of the columns that damping or the scene asks for.
+    pub(super) fn further_columns(&self, file: &str, rows: &mut Rows, extra: &[String], faults: &mut Faults) -> ByName {
+        let mut columns: ByName = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        let mut report = |row, key: &str, mistake| faults.in_file(file, rows.line(row), &self.table, key, mistake);
+        self.filed_columns(&mut columns, &mut report);
+        for column in self.columns {
+            self.tell_unread_column(column, columns.contains_key(column.name), faults);
+        }
+        columns
     }
 
     /// The material of each label of a file; of the set, if the file has none.
@@ -325,7 +331,6 @@ impl SetReader<'_> {
             position,
             velocity: self.written.velocity.unwrap_or_default().0,
             angular_velocity: self.written.angular_velocity.unwrap_or_default().0,
-            temperature: self.written.temperature.map(Positive::get),
         }
     }
 
@@ -341,13 +346,12 @@ impl SetReader<'_> {
 
     /// Tells keys that are for particles that have none of their own, where each has.
     pub(super) fn tell_unread(&self, own: impl Fn(&str) -> bool, faults: &mut Faults) {
-        let ParticlesTable { material, density, velocity, angular_velocity, temperature, orientation, .. } = self.written;
+        let ParticlesTable { material, density, velocity, angular_velocity, orientation, .. } = self.written;
         let written = [
             ("material", material.is_some()),
             ("density", density.is_some()),
             ("velocity", velocity.is_some()),
             ("angular_velocity", angular_velocity.is_some()),
-            ("temperature", temperature.is_some()),
             ("orientation", orientation.is_some()),
         ];
         for (key, _) in written.into_iter().filter(|(key, given)| *given && own(key)) {
@@ -369,7 +373,6 @@ pub(super) fn of_all(list: &[ListEntry], key: &str) -> bool {
         "density" => entry.density.is_some(),
         "velocity" => entry.velocity.is_some(),
         "angular_velocity" => entry.angular_velocity.is_some(),
-        "temperature" => entry.temperature.is_some(),
         _ => entry.orientation.is_some(),
     })
 }

@@ -12,7 +12,7 @@ pub(in crate::scene) use body::Inertia;
 pub(super) use body::{Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
 pub(super) use heat::{HeatSourceTable, HeatTable, TemperatureKey};
-pub(super) use particles::{ListEntry, ParticlesTable};
+pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
 
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};

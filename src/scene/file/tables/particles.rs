@@ -11,6 +11,9 @@ use std::collections::BTreeMap;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene::file) struct ParticlesTable {
+    /// What it says of declared columns, each read by its name.
+    #[serde(skip)]
+    pub(in crate::scene::file) columns: BTreeMap<&'static str, WrittenColumn>,
     /// Material of those that name none.
     pub(in crate::scene::file) material: Option<String>,
     /// Material of each type or material that the file names.
@@ -22,8 +25,6 @@ pub(in crate::scene::file) struct ParticlesTable {
     pub(in crate::scene::file) velocity: Option<Triple>,
     /// Angular velocity of those that have none of their own \[rad/s\].
     pub(in crate::scene::file) angular_velocity: Option<Triple>,
-    /// Temperature of those that have none of their own \[K\].
-    pub(in crate::scene::file) temperature: Option<Positive>,
     /// The clump that each of them is; absent: spheres.
     pub(in crate::scene::file) clump: Option<String>,
     /// How the clumps are turned that have no orientation of their own.
@@ -42,6 +43,15 @@ pub(in crate::scene::file) struct ParticlesTable {
     pub(in crate::scene::file) lattice: Option<LatticeTable>,
     /// A random packing.
     pub(in crate::scene::file) packing: Option<PackingTable>,
+}
+
+/// What a table says of a declared column.
+#[derive(Debug, Default)]
+pub(in crate::scene::file) struct WrittenColumn {
+    /// Value of those that have none of their own.
+    pub(in crate::scene::file) all: Option<f64>,
+    /// Value of each particle of the list that has its own.
+    pub(in crate::scene::file) listed: Vec<Option<f64>>,
 }
 
 /// A particle in a list.
@@ -66,6 +76,4 @@ pub(in crate::scene::file) struct ListEntry {
     pub(in crate::scene::file) velocity: Option<Triple>,
     /// Its angular velocity \[rad/s\].
     pub(in crate::scene::file) angular_velocity: Option<Triple>,
-    /// Its temperature \[K\].
-    pub(in crate::scene::file) temperature: Option<Positive>,
 }
