@@ -27,6 +27,7 @@ mod floors;
 mod foreseen_step;
 mod forged_states;
 mod free_groups;
+mod heat;
 mod lanes;
 mod loaded;
 mod losses;

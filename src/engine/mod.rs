@@ -16,3 +16,4 @@ pub mod simulation;
 pub(crate) mod stability;
 pub mod state;
 pub mod statics;
+pub(crate) mod transfer;

@@ -35,3 +35,16 @@ impl fmt::Debug for Column {
         formatter.write_str(self.name)
     }
 }
+
+/// Temperature of a particle.
+pub static TEMPERATURE: Column = Column {
+    name: "temperature",
+    unit: "K",
+    about: "temperature",
+    aliases: &["f_Temp[0]", "f_Temp"],
+    takes: |value| value > 0.0,
+    expected: "a number above 0",
+    start: None,
+    shared: Some(|material, mass| mass * material.thermal.specific_heat.unwrap_or(1.0)),
+    asked_by: &["contact.*.heat", "bond.*.conductivity", "heat_source"],
+};

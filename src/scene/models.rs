@@ -1,9 +1,9 @@
 //! The sub-models, rules of breakage and shapes that scenes may name.
 
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
-use crate::laws::column::Column;
+use crate::laws::column::{Column, TEMPERATURE};
 use crate::laws::contact::{
-    self, Cohesion, CohesionModel, CohesionRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
+    self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
     RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
 };
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
@@ -28,6 +28,8 @@ pub struct Models {
     pub(crate) rolling: Vec<&'static RollingRow>,
     /// Cohesion sub-models.
     pub(crate) cohesion: Vec<&'static CohesionRow>,
+    /// Heat sub-models.
+    pub(crate) heat: Vec<&'static HeatRow>,
     /// Rules of breakage.
     pub(crate) breakage: Vec<&'static BreakageRow>,
     /// Shapes of boundaries.
@@ -50,9 +52,10 @@ impl Models {
             tangential: contact::tangential::STANDARD.to_vec(),
             rolling: contact::rolling::STANDARD.to_vec(),
             cohesion: contact::cohesion::STANDARD.to_vec(),
+            heat: contact::heat::STANDARD.to_vec(),
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
-            columns: Vec::new(),
+            columns: vec![&TEMPERATURE],
         }
     }
 
@@ -77,6 +80,12 @@ impl Models {
     /// The same and a cohesion sub-model, in place of one of the same name.
     pub fn with_cohesion<M: Cohesion>(mut self) -> Self {
         put(&mut self.cohesion, CohesionRow::of::<M>(), ModelRow::name);
+        self
+    }
+
+    /// The same and a heat sub-model, in place of one of the same name.
+    pub fn with_heat<M: Heat>(mut self) -> Self {
+        put(&mut self.heat, HeatRow::of::<M>(), ModelRow::name);
         self
     }
 
@@ -118,6 +127,11 @@ impl Models {
         self.cohesion.iter().find(|row| row.name() == name)?.with(keys)
     }
 
+    /// The heat sub-model of this name with these keys, if there is one and they are of its type.
+    pub fn heat<K: ModelKeys>(&self, name: &str, keys: K) -> Option<HeatModel> {
+        self.heat.iter().find(|row| row.name() == name)?.with(keys)
+    }
+
     /// Names of the normal sub-models.
     pub fn normal_names(&self) -> Vec<&'static str> {
         names(&self.normal)
@@ -136,6 +150,11 @@ impl Models {
     /// Names of the cohesion sub-models.
     pub fn cohesion_names(&self) -> Vec<&'static str> {
         names(&self.cohesion)
+    }
+
+    /// Names of the heat sub-models.
+    pub fn heat_names(&self) -> Vec<&'static str> {
+        names(&self.heat)
     }
 }
 

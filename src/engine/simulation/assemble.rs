@@ -17,6 +17,7 @@ use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Nodes, Pace, Particles, State,
     WallContacts,
 };
+use crate::engine::transfer;
 use crate::scene::{Boundary, Particle, Scene};
 use std::sync::Mutex;
 
@@ -46,6 +47,7 @@ pub(super) fn state(scene: &Scene) -> State {
         exchange: flow::begun(scene),
         cell: Cell::begun(scene),
         clumps: ClumpBodies::begun(scene),
+        heat: transfer::begun(scene),
         particles,
     }
 }

@@ -15,6 +15,7 @@ use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
 use crate::engine::state::{Foresight, Pace, State, StateFault};
+use crate::engine::transfer::{self, Transfer};
 use crate::laws::bond::creation::Moment;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
@@ -53,6 +54,7 @@ impl Simulation {
             cell: Cell::of(&scene),
             clumps: ClumpBodies::of(&scene),
             flow,
+            transfer: Transfer::of(&scene),
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
             passing: Passing::of(&scene),
@@ -101,6 +103,7 @@ impl Simulation {
 
     /// The evaluation before the first step, and what follows from it.
     pub(super) fn start(&mut self) -> Result<(), RunError> {
+        transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
         self.clear_boundary_loads();
         let context = self.standing();
@@ -108,6 +111,7 @@ impl Simulation {
         let result = self.evaluate(true, &context);
         self.book_second_kick(None, 0.0, &context);
         self.open_energy_book();
+        self.look_at_heat(&context);
         result.map_err(|error| self.named(error))?;
         (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
         self.state.clock.speed = self.coming_speed(0.0);

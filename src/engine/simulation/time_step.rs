@@ -8,6 +8,7 @@ use crate::engine::clumps;
 use crate::engine::energy;
 use crate::engine::integration;
 use crate::engine::state::ledger::Source;
+use crate::engine::transfer;
 use crate::laws::bond::creation::Moment;
 use crate::laws::motion::Progress;
 
@@ -19,6 +20,10 @@ impl Simulation {
         let step = progress.step;
         let moment = self.begin_step(step);
         let progress = Progress { time: moment.to, ..progress };
+        if self.scene.heat.frozen {
+            self.transfer_heat(&progress, context);
+            return Ok(());
+        }
         self.book_first_kick(step);
         let way = self.kick_and_drift(step, context);
         self.move_boundaries(progress);
@@ -36,6 +41,7 @@ impl Simulation {
             cell.finish(&mut self.state, step);
         }
         self.follow_contacts();
+        self.transfer_heat(&progress, context);
 
         self.book_second_kick(gravity, step, context);
         let speed = self.kick_again(gravity, step, context);
@@ -70,6 +76,24 @@ impl Simulation {
         let strain = cell.advance(&mut self.state, progress, context);
         self.done("cell");
         strain
+    }
+
+    /// Lets heat flow between what touches now, where any does.
+    fn transfer_heat(&mut self, progress: &Progress, context: &Context) {
+        let Self { transfer, scene, passes, state, .. } = self;
+        if let Some(transfer) = transfer {
+            transfer.advance((scene, passes), state, progress, context);
+            self.done("heat");
+        }
+    }
+
+    /// Finds what conducts now, before anything flows.
+    pub(super) fn look_at_heat(&mut self, context: &Context) {
+        let Self { transfer, scene, passes, state, .. } = self;
+        if let Some(transfer) = transfer {
+            transfer.look((scene, passes), state, context);
+            transfer::tell(scene, state);
+        }
     }
 
     /// Makes the second half of the kick, of particles and bodies that forces move. Returns the largest speed at the middle of the next

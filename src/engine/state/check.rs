@@ -61,7 +61,7 @@ fn finite(rows: &[Row], part: &'static str) -> Result<(), StateFault> {
 }
 
 /// Whether numbers are finite.
-fn all_finite(numbers: &[f64], part: &'static str) -> Result<(), StateFault> {
+pub(super) fn all_finite(numbers: &[f64], part: &'static str) -> Result<(), StateFault> {
     demand_all(numbers.iter().map(|number| number.is_finite()), part, FINITE)
 }
 
@@ -114,6 +114,10 @@ impl State {
             exchange.check_same(other)?;
         } else {
             self.particles.check_same(&other.particles)?;
+        }
+        demand(self.heat.is_some() == other.heat.is_some(), "heat", 0, "temperatures where heat flows")?;
+        if let (Some(heat), Some(other)) = (&self.heat, &other.heat) {
+            heat.check(other, self.particles.slot.len(), self.exchange.is_none())?;
         }
         let same = "as many as the scene has";
         let declared = self.particles.declared.len();

@@ -11,6 +11,7 @@ mod contacts;
 mod damping;
 mod exchange;
 mod finding;
+mod heat;
 mod motion;
 mod named_tables;
 mod particles;
@@ -27,7 +28,7 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Accuracy, Cell, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{Accuracy, Cell, Derived, HeatSettings, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
 use crate::scene::{cell, clump, column};
 use finding::Finding;
 use particles::ReadParticles;
@@ -55,11 +56,12 @@ pub(super) fn scene(
     let columns = columns::starts(&written, &asked, &born, &mut faults);
     faults.so_far()?;
     let cell = cell_of(&written, &born, &mut faults);
-    let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
+    let boundaries = boundaries::boundaries(&written, source, &materials, (&born, &columns), &mut faults);
     let bonds = bonds::bonds(&written, source, (&born, cell.as_ref()), &boundaries, &run, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
+    let heat_sources = heat::sources(&written, &born, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
@@ -80,6 +82,8 @@ pub(super) fn scene(
         boundaries,
         damping,
         forces,
+        heat: HeatSettings { frozen: written.heat.frozen },
+        heat_sources,
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
         domain: written.domain.map(|domain| domain.corners.0),
@@ -146,7 +150,7 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
     let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft));
-    let others = others.chain(column::objections(draft));
+    let others = others.chain(column::objections(draft)).chain(crate::scene::heat::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);
