@@ -465,6 +465,11 @@ class Interface:
             part.restore()
         self.displacement = self._saved
 
+    def settings(self) -> dict[str, Any]:
+        """Which variables of which units it joins, and where it stands."""
+        parts = [[part.unit.name, part.displacements, part.forces, part.through] for part in self._parts]
+        return {"parts": parts, "substeps": self.substeps, "displacement": self.displacement}
+
     def memory(self) -> Any:
         """What changes beside the units."""
         return self.displacement, [[one.memory() for one in part.turns] for part in self._parts]

@@ -17,6 +17,7 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from cograin import interrupts
+from cograin.identity import of_file
 from cograin.nodes import Nodes
 from cograin.vector import Matrix, Vector
 
@@ -192,6 +193,25 @@ class Unit:
     def has_derivatives(self) -> bool:
         """Whether it gives directional derivatives."""
         return bool(self.description.coSimulation.providesDirectionalDerivative)
+
+    def settings(self) -> dict[str, Any]:
+        """The file by its content, and the present values of parameters and inputs.
+
+        The number of threads is not among them: it changes no bit.
+        """
+        found: dict[str, Any] = {"name": self.name, "file": of_file(self.path)}
+        names = [name for name in (*self.names("parameter"), *self.names("input")) if name != "run.threads"]
+        real = self._real_of(names)
+        found.update({name: self[name] for name in names if self.variables[name].type != "Real"})
+        return {**found, **dict(zip(real, self.get(real).tolist(), strict=True))}
+
+    def outputs(self) -> Vector:
+        """Present values of all real outputs, in the order of the unit."""
+        return self.get(self._real_of(self.names("output")))
+
+    def _real_of(self, names: Sequence[str]) -> list[str]:
+        """The real variables among these."""
+        return [name for name in names if self.variables[name].type == "Real"]
 
     def variable(self, name: str) -> Any:
         """The description of a variable; an unknown name is answered with the nearest one."""
