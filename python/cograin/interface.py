@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from cograin import interrupts
 from cograin.rotation import after, quaternion, rotation_vector, secant, tangent, turn
 from cograin.step import Force, Step
 from cograin.unit import State, Unit
@@ -446,6 +447,7 @@ class Interface:
             # No unit is left in the middle of a step.
             failed = [failure for each in running if (failure := each.exception()) is not None]
         if failed:
+            interrupts.check()
             raise failed[0]
 
     def save(self) -> None:

@@ -36,6 +36,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from cograin.extras import needed
 from cograin.identity import Identity, differing, identity, of_file, of_program, of_scene, of_words
 from cograin.program import Program, ProgramError
 from cograin.results import ResultError, Run, reason
@@ -412,15 +413,14 @@ class Study:
 
     def to_pandas(self) -> Any:
         """The table as a ``pandas.DataFrame``."""
-        import pandas
-
-        return pandas.DataFrame(self.columns)
+        return needed("pandas", "study").DataFrame(self.columns)
 
     def save(self, path: str | Path) -> None:
         """Writes the table, whole or not at all: Parquet if the name ends so (by pandas and pyarrow), else CSV."""
         path = Path(path)
         part = path.with_name(f".{path.name}.part")
         if path.suffix == ".parquet":
+            needed("pyarrow", "study")
             self.to_pandas().to_parquet(part)
         else:
             columns = self.columns

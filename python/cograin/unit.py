@@ -333,9 +333,12 @@ class Unit:
         final = fmpy.fmi2.fmi2False if self._states else fmpy.fmi2.fmi2True
         with interrupts.held():
             try:
-                self.slave.doStep(self.time, length, final)
+                with interrupts.ending(self._cancel):
+                    self.slave.doStep(self.time, length, final)
             except FMICallException as refusal:
                 if refusal.status != _PENDING or not self._waited():
+                    # A step that an interrupt ended is not one that the unit refused.
+                    interrupts.check()
                     raise self._refused(refusal.status, length) from None
             if until is not None:
                 self._origin, self._length, self._count = until, 0.0, 0
@@ -345,6 +348,11 @@ class Unit:
                 self._origin, self._length, self._count = self.time, length, 0
             self._count += 1
             self.time = self._origin + self._count * length
+
+    def _cancel(self) -> None:
+        """Ends the step that is under way in another thread. Only our own units are sure to allow it."""
+        if str(self.description.generationTool).startswith("cograin"):
+            self.slave.fmi2CancelStep(self.slave.component)
 
     def _waited(self) -> bool:
         """Waits for a step that the unit makes on its own; whether it was made."""
