@@ -17,11 +17,14 @@ seed = 7
 density = 2500.0
 youngs_modulus = 1e7
 poissons_ratio = 0.25
+conductivity = 1.0
+specific_heat = 800.0
 [pair.a.a]
 restitution = 0.6
 friction = 0.4
 [contact.all.normal.hertz]
 [contact.all.tangential.history]
+[contact.all.heat.constriction]
 [output]
 energy = true
 losses = true
@@ -35,10 +38,12 @@ LAWS
 spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 0.0, 0.0], radius = 0.002 }]
 [particles.clumps]
 material = "a"
+temperature = 300.0
 clump = "pair"
 list = [{ position = [0.0, 0.02, 0.0018], velocity = [0.1, 0.0, 0.0] }]
 [particles.rods]
 material = "a"
+temperature = 300.0
 list = [
     { position = [0.0, 0.0, 0.0019], radius = 0.002, velocity = [0.0, 0.0, -0.2] },
     { position = [0.004, 0.0, 0.0019], radius = 0.002 },
@@ -46,6 +51,7 @@ list = [
 ]
 [particles.stone]
 material = "a"
+temperature = 350.0
 list = [
     { position = [0.02, 0.0, 0.0019], radius = 0.002, velocity = [0.0, 0.1, -0.1] },
     { position = [0.02, 0.004, 0.0019], radius = 0.002 },
@@ -84,6 +90,7 @@ box = [[0.009, -0.05, 0.0], [0.012, 0.05, 0.01]]
 [insertion.feed]
 region = "mouth"
 material = "a"
+temperature = 400.0
 sizes = { radius = 0.001 }
 count_rate = 20000.0
 [outlet.bottom]
@@ -97,10 +104,12 @@ LAWS
 spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 0.0, 0.0], radius = 0.002 }]
 [particles.clumps]
 material = "a"
+temperature = 300.0
 clump = "pair"
 list = [{ position = [0.004, 0.008, 0.004], velocity = [0.1, 0.0, 0.0] }]
 [particles.balls]
 material = "a"
+temperature = 300.0
 list = [
     { position = [0.002, 0.002, 0.002], radius = 0.002, velocity = [-0.3, 0.0, 0.0] },
     { position = [0.006, 0.002, 0.002], radius = 0.002 },
@@ -146,6 +155,7 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
                 && a.damping_force == b.damping_force
                 && a.damping_impulse == b.damping_impulse
         }
+        Part::Heat => a.heat == b.heat && p.declared == q.declared,
         Part::Speed => a.clock.speed == b.clock.speed && a.foresight == b.foresight,
     }
 }

@@ -107,6 +107,10 @@ class Exchange(ABC):
         """Restores what `memory` returned, and forgets what came after."""
         vars(self).update(memory)
 
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, before its first step."""
+        return {name: value for name, value in vars(self).items() if name not in ("_made", "_measure")}
+
     def fresh(self) -> None:
         """Begins a run, with what it was made with: nothing of an earlier run changes a bit."""
         first = vars(self).get("_made")

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from cograin import interrupts
 from cograin.rotation import after, quaternion, rotation_vector, secant, tangent, turn
 from cograin.step import Force, Step
 from cograin.unit import State, Unit
@@ -446,6 +447,7 @@ class Interface:
             # No unit is left in the middle of a step.
             failed = [failure for each in running if (failure := each.exception()) is not None]
         if failed:
+            interrupts.check()
             raise failed[0]
 
     def save(self) -> None:
@@ -464,6 +466,11 @@ class Interface:
         for part in self._parts:
             part.restore()
         self.displacement = self._saved
+
+    def settings(self) -> dict[str, Any]:
+        """Which variables of which units it joins, and where it stands."""
+        parts = [[part.unit.name, part.displacements, part.forces, part.through] for part in self._parts]
+        return {"parts": parts, "substeps": self.substeps, "displacement": self.displacement}
 
     def memory(self) -> Any:
         """The values that change in a step, without the units."""

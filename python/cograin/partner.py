@@ -13,7 +13,11 @@ from cograin.vector import Matrix, Vector, vector
 
 
 class Partner(Protocol):
-    """The other side of an interface: takes the force of the particles and determines the displacement."""
+    """The other side of an interface: takes the force of the particles and determines the displacement.
+
+    For a checkpoint it also has ``memory()``, which gives what its steps change, and ``recall(memory)``. A checkpoint
+    is that of a partner with the same attributes; ``settings()`` gives others in their place, by their names.
+    """
 
     @property
     def displacement(self) -> Vector:
@@ -116,6 +120,10 @@ class UnitPartner:
         """The unit."""
         return [self.unit]
 
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, and where it stands, beside the unit itself."""
+        return {name: value for name, value in vars(self).items() if name not in ("unit", "_saved", "_tried")}
+
     def memory(self) -> Any:
         """Where the partner is, and what it learned of the unit."""
         return self._here, self.unit.time, self._largest, dict(self._compliances)
@@ -205,6 +213,10 @@ class Partners:
         """Where the directions begin that count turns."""
         turning = [(one, place.start) for one, place in self._each() if hasattr(one, "turning")]
         return tuple(first + each for one, first in turning for each in one.turning())
+
+    def settings(self) -> dict[str, Any]:
+        """The partners."""
+        return {"partners": self.partners}
 
     def memory(self) -> Any:
         """The memories of those that have one."""

@@ -17,6 +17,18 @@ from cograin.vector import Matrix, Vector, closing, is_sparse, solver, vector
 #: What the steps of a structure change.
 _CHANGING = ("position", "velocity", "displacement", "work", "load_work", "loss", "correction", "_apart")
 
+#: What is computed again where it is missing.
+_COMPUTED = (
+    "_solvers",
+    "_responses",
+    "_closings",
+    "_unforced",
+    "_kicked",
+    "_mass_solver",
+    "_kick_solvers",
+    "_quadratic_steps",
+)
+
 #: External forces on the degrees of freedom at a time [s] [N].
 Load = Callable[[float], ArrayLike]
 
@@ -147,6 +159,10 @@ class Structure:
         self._unforced = None
         self._stand(displacement, force, step)
         self.work += float(force @ (displacement - begin))
+
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, and where it stands."""
+        return {name: value for name, value in vars(self).items() if name not in _COMPUTED}
 
     def memory(self) -> Any:
         """The values that change in a step."""

@@ -17,6 +17,7 @@ use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
 use crate::engine::state::{Foresight, Pace, State, StateFault};
+use crate::engine::transfer::{self, Transfer};
 use crate::laws::bond::creation::Moment;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
@@ -57,6 +58,7 @@ impl Simulation {
             cell: Cell::of(&scene),
             clumps: ClumpBodies::of(&scene),
             flow,
+            transfer: Transfer::of(&scene),
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
             passing: Passing::of(&scene),
@@ -106,11 +108,13 @@ impl Simulation {
 
     /// The evaluation before the first step, and what follows from it.
     pub(super) fn start(&mut self) -> Result<(), RunError> {
+        transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
         let context = self.standing();
         let result = self.evaluate(&context);
         self.book_second_kick(None, &context);
         self.open_energy_book();
+        self.look_at_heat(&context);
         result.map_err(|error| self.named(error))?;
         (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
         self.state.clock.speed = self.coming_speed(0.0);

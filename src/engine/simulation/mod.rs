@@ -57,6 +57,7 @@ use crate::engine::flow::Flow;
 use crate::engine::integration::Fields;
 use crate::engine::neighbours;
 use crate::engine::state::State;
+use crate::engine::transfer::Transfer;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
 use repeats::Repeats;
@@ -91,6 +92,8 @@ pub struct Simulation {
     cell: Option<Cell>,
     /// Clumps, where the scene has any.
     clumps: Option<ClumpBodies>,
+    /// What lets heat flow, where any does.
+    transfer: Option<Transfer>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.

@@ -9,6 +9,7 @@ use crate::scene::clump::OrientationKey;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// The key that is wrong, and why.
@@ -43,6 +44,9 @@ pub enum Amount {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InsertionKeys {
+    /// What it says of declared columns, each read by its name.
+    #[serde(skip)]
+    pub(crate) columns: BTreeMap<&'static str, f64>,
     /// Name of the region in which all that comes lies whole.
     pub(crate) region: String,
     /// Name of the material; absent: that which the clumps name.

@@ -51,6 +51,8 @@ pub enum Part {
     Clumps,
     /// The periodic cell and its images.
     Cell,
+    /// Temperatures, and the heat of particles and boundaries.
+    Heat,
     /// Energy books, and the impulse of global damping.
     Books,
     /// The largest speed of what forces move, and how far all went since the stable step was found.
@@ -59,7 +61,7 @@ pub enum Part {
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Places,
         Self::Motions,
         Self::Loads,
@@ -70,6 +72,7 @@ impl Part {
         Self::Boundaries,
         Self::Clumps,
         Self::Cell,
+        Self::Heat,
         Self::Books,
         Self::Speed,
     ];
@@ -98,9 +101,10 @@ pub(super) struct Stages([Vec<&'static Stage>; Phase::ALL.len()]);
 impl Stages {
     /// Those of a simulation.
     pub(super) fn of(simulation: &Simulation) -> Self {
-        Self(
-            Phase::ALL.map(|phase| ROWS[phase as usize].iter().filter(|stage| (stage.is_needed)(simulation)).collect()),
-        )
+        // Where the mechanics are frozen heat alone flows.
+        let runs = |stage: &Stage| !simulation.scene.heat.frozen || stage.writes == [Part::Heat];
+        let needed = |stage: &&Stage| (stage.is_needed)(simulation) && runs(stage);
+        Self(Phase::ALL.map(|phase| ROWS[phase as usize].iter().filter(needed).collect()))
     }
 
     /// Those of a phase.

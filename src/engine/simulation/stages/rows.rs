@@ -1,6 +1,8 @@
 //! The list of the stages.
 
-use super::Part::{Bonds, Books, Boundaries, Cell, Clumps, Contacts, Lists, Loads, Motions, Particles, Places, Speed};
+use super::Part::{
+    Bonds, Books, Boundaries, Cell, Clumps, Contacts, Heat, Lists, Loads, Motions, Particles, Places, Speed,
+};
 use super::{Phase, Simulation, Stage};
 use crate::engine::state::ledger::Source;
 
@@ -225,6 +227,14 @@ const FORCES: &[Stage] = &[
 
 /// The other half of the kick.
 const KICK: &[Stage] = &[
+    Stage {
+        name: "heat",
+        scenes: "temperatures",
+        is_needed: |it| it.scene.has_heat(),
+        reads: &[Places, Lists, Contacts, Bonds, Boundaries, Heat],
+        writes: &[Heat],
+        run: Simulation::transfer_heat,
+    },
     Stage {
         name: "fields",
         scenes: "applied forces, global damping",

@@ -179,6 +179,7 @@ impl Normal for Jkr {
     const NAME: &'static str = "jkr";
     type Keys = Keys;
     type Form = Self;
+    const ELASTIC_SPHERES: bool = true;
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let [modulus, energy, tangential, viscoelastic, mass, plain, ratio] =
@@ -202,6 +203,11 @@ impl NormalForm for Jkr {
     fn reach(&self, radius: f64) -> f64 {
         let ratio = self.surface_energy / self.youngs_modulus / radius;
         self.reach * radius * libm::cbrt(ratio * ratio)
+    }
+
+    #[inline(always)]
+    fn contact_radius<N: Number>(law: Jkr<N>, overlap: N, radius: N) -> N {
+        law.contact_radius(overlap, radius)
     }
 
     #[inline(always)]
