@@ -1,6 +1,5 @@
 //! How a simulation comes into being: built from a scene, or taken over with a state of it.
 
-use super::repeats::Repeats;
 use super::rollback::Rollback;
 use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
@@ -63,7 +62,6 @@ impl Simulation {
             state,
             workspace: Workspace::default(),
             rollback: Rollback::default(),
-            repeats: Repeats::default(),
             stop: None,
             watch: None,
         };

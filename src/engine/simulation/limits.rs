@@ -25,11 +25,23 @@ const STEPS_BETWEEN_LOOKS_OF_CELL: u64 = 32;
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
 
+/// How much longer than it would be chosen now an automatic time step may be in the first [`BETWEEN_LOOKS`] time steps of a
+/// communication step: with 0.8 of the stable one it is then stable all the same.
+///
+/// [`BETWEEN_LOOKS`]: super::pace::BETWEEN_LOOKS
+const SLACK: f64 = 1.25;
+
+/// By which factor an automatic time step changes within a communication step, or by powers of it.
+const RUNG: f64 = 1.02;
+
 /// Largest speed over that of the last look at which the stable time step is looked at again.
 const CALMER: f64 = 0.25;
 
 /// How much longer the automatic time step may be than that for which it was foreseen.
 const MUCH_LONGER: f64 = 20.0;
+
+/// How much shorter it may be than that.
+const MUCH_SHORTER: f64 = 4.0;
 
 /// How often it is foreseen at a time.
 const MOST_TRIES: usize = 4;
@@ -87,7 +99,8 @@ impl Simulation {
             }
             let next = self.automatic_step(found.safe()).unwrap_or(step);
             tries += 1;
-            if next <= MUCH_LONGER * step || sight.fastest == 0.0 || tries == MOST_TRIES {
+            let fits = next <= MUCH_LONGER * step && step <= MUCH_SHORTER * next;
+            if fits || sight.rests || tries == MOST_TRIES {
                 return (sight, found);
             }
             step = next;
@@ -104,7 +117,8 @@ impl Simulation {
 
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
-        Some((self.part_of_stable()? * stable).min(self.longest_by_motion()).min(self.longest_by_springs()))
+        let part = self.part_of_stable()? * stable;
+        Some(part.min(self.longest_by_motion()).min(self.longest_by_springs()).min(self.longest_by_vibration()))
     }
 
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and
@@ -266,34 +280,46 @@ impl Simulation {
         self.state.clock.speed < CALMER * self.state.foresight.fastest
     }
 
-    /// Whether an automatic time step is longer than it would be chosen now.
-    pub(super) fn is_too_long(&self) -> bool {
-        self.automatic_step(self.state.clock.stable).is_some_and(|step| step < self.state.clock.step)
+    /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther.
+    pub(super) fn shorten_step(&mut self) {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
+        // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
+        if step < self.state.clock.step && step > 0.0 {
+            self.state.clock.step = step;
+        }
     }
 
-    /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther. Returns whether it has.
-    pub(super) fn shorten_step(&mut self) -> bool {
+    /// Shortens an automatic time step within a communication step: at once or, so that inputs which differ a little make no difference,
+    /// where it is a good deal too long. It shrinks by whole hundredths for the same reason. Returns whether it has.
+    pub(super) fn shorten_on_the_way(&mut self, at_once: bool) -> bool {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
-        // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
-        let shorter = step < self.state.clock.step && step > 0.0;
-        if shorter {
-            self.state.clock.step = step;
+        let slack = if at_once { 1.0 } else { SLACK };
+        let shorter = slack * step < self.state.clock.step && step > 0.0;
+        while shorter && step < self.state.clock.step {
+            self.state.clock.step /= RUNG;
         }
         shorter
     }
 
-    /// Lengthens an automatic time step, of which this is left of a communication step \[s\], where a good deal more is allowed. Returns
-    /// whether it has.
-    pub(super) fn lengthen_step(&mut self, left: f64) -> bool {
+    /// Lengthens an automatic time step within a communication step, where a good deal more is allowed. Returns whether it has.
+    pub(super) fn lengthen_on_the_way(&mut self) -> bool {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
-        let clock = &mut self.state.clock;
-        let longer = step > LENGTHENING * clock.step;
-        if step.is_infinite() {
-            clock.step = left;
-        } else if longer {
-            clock.step = step;
+        let longer = step.is_finite() && step > LENGTHENING * self.state.clock.step;
+        while longer && step >= RUNG * self.state.clock.step {
+            self.state.clock.step *= RUNG;
         }
         longer
+    }
+
+    /// Lengthens an automatic time step for a communication step of this length \[s\], where a good deal more is allowed.
+    pub(super) fn lengthen_step(&mut self, length: f64) {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
+        let clock = &mut self.state.clock;
+        if step.is_infinite() {
+            clock.step = length;
+        } else if step > LENGTHENING * clock.step {
+            clock.step = step;
+        }
     }
 
     /// The time step of the start, by what was found.

@@ -30,6 +30,8 @@ pub(crate) const MOST_STEPS: f64 = 1e15;
 /// A communication step of which a part has been made.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Underway {
+    /// Number of the time step with which it began.
+    pub begun: u64,
     /// Time steps done since it was divided last.
     pub done: u64,
     /// Time steps in all since then.
