@@ -4,8 +4,14 @@ use crate::support::start;
 use cograin::simulation::Simulation;
 use std::f64::consts::TAU;
 
-/// Radius of the spheres \[m\], their density \[kg/m³\] and the normal stiffness of bonds per area \[Pa/m\].
-const [RADIUS, DENSITY, STIFFNESS]: [f64; 3] = [5e-3, 2500.0, 1e10];
+/// Radius of the spheres \[m\].
+const RADIUS: f64 = 5e-3;
+
+/// Density of the spheres \[kg/m³\].
+const DENSITY: f64 = 2500.0;
+
+/// Normal stiffness of bonds per area \[Pa/m\].
+const STIFFNESS: f64 = 1e10;
 
 /// A scene of spheres that bonds hold in a row.
 fn scene(run: &str, spheres: &[[f64; 2]], rest: &str) -> String {
@@ -98,6 +104,27 @@ fn a_bonded_row_that_holds_a_load_takes_the_stable_step() {
     }
     let part = simulation.state().clock.step / simulation.state().clock.stable;
     assert!(part > 0.7, "{part} of the stable step");
+}
+
+#[test]
+fn a_pair_that_spins_or_hangs_on_what_moves_does_not_vibrate() {
+    let spins = scene("", &[[0.0, 0.0], [0.01, 0.0]], "")
+        .replacen("velocity = [0.0, 0.0, 0.0]", "velocity = [3.0, -0.5, 0.0], angular_velocity = [0.0, 0.0, 100.0]", 1)
+        .replacen("velocity = [0.0, 0.0, 0.0]", "velocity = [3.0, 0.5, 0.0], angular_velocity = [0.0, 0.0, 100.0]", 1);
+    let moves = scene(
+        "",
+        &[[0.0, 0.0], [0.01, 0.0]],
+        "[boundary.left]\nparticles = { set = \"p\", box = [[-1e-3, -1.0, -1.0], [1e-3, 1.0, 1.0]] }\nmotion = \"fixed\"\n\
+         [boundary.right]\nparticles = { set = \"p\", box = [[9e-3, -1.0, -1.0], [0.011, 1.0, 1.0]] }\n\
+         motion = { prescribed = { x = 1e-5 } }\n",
+    );
+    for text in [spins, moves] {
+        let mut simulation = start(&text);
+        // What stretches as it begins to spin swings; as it is it has far less energy than the motion.
+        let square = simulation.state().pace.vibration;
+        assert!(square < 1.01 * frequency() * frequency(), "{square}, {} at most", frequency() * frequency());
+        simulation.advance(1e-4).expect("it runs");
+    }
 }
 
 #[test]

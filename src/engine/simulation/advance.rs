@@ -121,6 +121,7 @@ impl Simulation {
         if self.is_due(boundary_speed, step) {
             self.look(step, &Context { step, ..*standing })?;
         }
+        self.join_given();
         self.shorten_on_the_way(seen != Seen::Nothing);
         let (step, time) = (self.state.clock.step, self.time());
         if interval < step / MOST_STEPS {
@@ -185,6 +186,7 @@ impl Simulation {
             underway.done += 1;
             let Underway { done, count, passed, length, .. } = *underway;
             let context = Context { step, ..*standing };
+            self.count_divided();
             self.step(Progress { done, count, step, time: 0.0, passed, length }, &context)?;
             if self.boundaries_change_speed() {
                 underway.boundary_speed = self.boundary_speed();

@@ -8,7 +8,8 @@ use crate::engine::contacts::FASTER;
 use crate::engine::stability::{self, Limit, System};
 use crate::engine::state::{BoundaryState, State};
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
-use crate::scene::{Boundary, Insertion, Step};
+use crate::laws::contact::impact::LONGEST_PART;
+use crate::scene::{Bond, Boundary, Insertion, Run, Step};
 
 /// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
 const FAR_BELOW: f64 = 1.5;
@@ -103,7 +104,8 @@ impl Simulation {
             if fits || sight.rests || tries == MOST_TRIES {
                 return (sight, found);
             }
-            step = next;
+            // Where too much was foreseen, the step is between: the one that follows from it foresees too little.
+            step = if next < step { (step * next).sqrt() } else { next };
         }
     }
 
@@ -184,12 +186,52 @@ impl Simulation {
             to: window.map_or(0.0, |window| window.to),
         };
         self.state.clock.stable = found.safe();
-        if step > found.safe() && matches!(self.scene.run.step, Step::Given(_)) && !self.scene.run.allow_unstable {
+        let is_given = matches!(self.scene.run.step, Step::Given(_));
+        if step > found.safe() && is_given && !self.divides() && !self.scene.run.allow_unstable {
             let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, context);
             let by = by.map_or_else(String::new, |by| self.words(&by));
             return Err(RunError::StepTooLong { step, stable: found.safe(), by, time: self.time() });
         }
         self.check_contacts()
+    }
+
+    /// Whether a given time step is divided where the stable one is below it. What knows the step by its number, or relaxes in it, needs
+    /// the very step that was given.
+    pub(super) fn divides(&self) -> bool {
+        let Run { step, allow_unstable, strict_step, .. } = self.scene.run;
+        let needs =
+            |bond: &Bond| bond.keys.needs_given_step().or(bond.keys.shortest_relaxation().map(|_| "")).is_some();
+        matches!(step, Step::Given(_)) && !allow_unstable && !strict_step && !self.scene.bonds.iter().any(needs)
+    }
+
+    /// The longest whole part of a given time step that is a good deal below the stable one \[s\]; none where it is not divided.
+    fn whole_part(&self) -> Option<f64> {
+        let Step::Given(step) = self.scene.run.step else { return None };
+        let most = LONGEST_PART * self.state.clock.stable;
+        let holds = self.divides() && most > 0.0;
+        holds.then(|| step / (step / most).ceil().max(1.0))
+    }
+
+    /// Divides a given time step where the stable one has fallen below it. Returns whether it has.
+    fn divide_given(&mut self) -> bool {
+        let is_above = self.state.clock.step > self.state.clock.stable;
+        let Some(step) = self.whole_part().filter(|_| is_above) else { return false };
+        self.state.clock.step = step;
+        true
+    }
+
+    /// Joins the parts of a given time step again, where the stable one is far enough above them.
+    pub(super) fn join_given(&mut self) {
+        if let Some(step) = self.whole_part() {
+            self.state.clock.step = step.max(self.state.clock.step);
+        }
+    }
+
+    /// Notes a time step of this length \[s\], where it is shorter than the scene says.
+    pub(super) fn count_divided(&mut self) {
+        if let Step::Given(step) = self.scene.run.step {
+            self.state.clock.divided += u64::from(self.state.clock.step < step);
+        }
     }
 
     /// Looks at what servos press on, where it has changed, and now and then.
@@ -292,7 +334,7 @@ impl Simulation {
     /// Shortens an automatic time step within a communication step: at once or, so that inputs which differ a little make no difference,
     /// where it is a good deal too long. It shrinks by whole hundredths for the same reason. Returns whether it has.
     pub(super) fn shorten_on_the_way(&mut self, at_once: bool) -> bool {
-        let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return self.divide_given() };
         let slack = if at_once { 1.0 } else { SLACK };
         let shorter = slack * step < self.state.clock.step && step > 0.0;
         while shorter && step < self.state.clock.step {
@@ -329,6 +371,7 @@ impl Simulation {
         let unlimited = self.scene.run.end.unwrap_or(UNLIMITED);
         let limited = |step: f64| if step.is_finite() { step } else { unlimited };
         self.state.clock.step = self.automatic_step(self.state.clock.stable).map_or(given, limited);
+        self.divide_given();
         Ok(())
     }
 }

@@ -24,6 +24,9 @@ type Twist = [Vector; 2];
 /// Times that the frequency by which accelerations count is found again.
 const TURNS: usize = 2;
 
+/// Energy of a vibration over that of the whole motion of its cluster below which it may be one of rounding.
+const ROUNDING: f64 = 1e-15;
+
 /// Clusters, and what was summed over each. Kept, so that a look requests no memory.
 #[derive(Debug, Default)]
 pub(crate) struct Vibrations {
@@ -46,8 +49,12 @@ struct Sums {
     momenta: [Twist; 2],
     /// The body that it hangs on, and whether forces move that one.
     support: Option<(bool, usize)>,
-    /// Motion as a rigid body, at its first body: velocity and acceleration.
+    /// Where its motion as a rigid body is told of: its mass centre, or what it hangs on \[m\].
+    centre: Vector,
+    /// That motion there: velocity and acceleration.
     rigid: [Twist; 2],
+    /// Kinetic energy of everything \[J\].
+    kinetic: f64,
     /// ½ vᵀ M v \[J\] and ½ aᵀ M a \[J/s²\] beside that.
     inertial: [f64; 2],
     /// ½ vᵀ K v \[J/s²\] and ½ aᵀ K a \[J/s⁴\] beside that.
@@ -66,7 +73,9 @@ impl Sums {
             second: Matrix3::zeros(),
             momenta: still,
             support: None,
+            centre: Vector::zero(),
             rigid: still,
+            kinetic: 0.0,
             inertial: [0.0; 2],
             elastic: [0.0; 2],
             stored: 0.0,
@@ -91,18 +100,26 @@ impl Sums {
             return;
         }
         let centre = self.first * (1.0 / self.mass);
-        let inverse = (self.second - of_point(self.mass, centre)).try_inverse().filter(|_| turns);
-        self.rigid = self.momenta.map(|[momentum, angular]| {
-            let spin = inverse.map_or(Vector::zero(), |it| times(&it, angular - centre.cross(momentum)));
-            [momentum * (1.0 / self.mass) - spin.cross(centre), spin]
-        });
+        let moments = self.second - of_point(self.mass, centre);
+        let inverse = moments.try_inverse().filter(|_| turns);
+        let turn = |angular: Vector| inverse.map_or(Vector::zero(), |it| times(&it, angular));
+        let [[momentum, angular], [force, moment]] = self.momenta;
+        let spin = turn(angular - centre.cross(momentum));
+        let gyration = spin.cross(times(&moments, spin));
+        let per_mass = 1.0 / self.mass;
+        self.centre = centre;
+        self.rigid = [[momentum * per_mass, spin], [force * per_mass, turn(moment - centre.cross(force) - gyration)]];
     }
 
     /// What is left of a motion at this place.
     fn beside(&self, place: Vector, motions: &[Twist; 2]) -> [Twist; 2] {
+        let arm = place - self.centre;
+        let spin = self.rigid[0][1];
+        // What turns is accelerated towards its axis.
+        let inwards = [Vector::zero(), spin.cross(spin.cross(arm))];
         [0, 1].map(|k| {
             let ([velocity, spin], [rigid, turn]) = (motions[k], self.rigid[k]);
-            [velocity - rigid - turn.cross(place), spin - turn]
+            [velocity - rigid - turn.cross(arm) - inwards[k], spin - turn]
         })
     }
 
@@ -117,7 +134,7 @@ impl Sums {
         let potential = ratio(changing, square);
         let energy = kinetic + potential;
         let holds = square.is_finite() && square > 0.0 && energy.is_finite() && energy > 0.0;
-        holds.then(|| [energy, square, (self.stored - potential).max(0.0)])
+        holds.then(|| [energy, square, (self.stored - potential).max(0.0) + ROUNDING * self.kinetic])
     }
 }
 
@@ -132,6 +149,16 @@ struct Inertia {
 }
 
 impl Inertia {
+    /// What of a motion is along and about axes along and about which it has inertia: others are led.
+    fn moved(&self, [along, about]: Twist) -> Twist {
+        let turns = self.turning.diagonal();
+        let of = |vector: Vector, holds: [bool; 3]| {
+            let parts = vector.to_array();
+            Vector::from([0, 1, 2].map(|axis| if holds[axis] { parts[axis] } else { 0.0 }))
+        };
+        [of(along, self.mass.map(|mass| mass > 0.0)), of(about, [0, 1, 2].map(|axis| turns[axis] > 0.0))]
+    }
+
     /// Half of the mass times the square of a motion.
     fn half_square(&self, [along, about]: Twist) -> f64 {
         let [x, y, z] = along.to_array();
@@ -234,10 +261,8 @@ impl System<'_> {
                 Some((_, body)) => {
                     let place = clusters.place(body);
                     let turns = if clusters.goes_around(cluster) { 0.0 } else { 1.0 };
-                    sums.rigid = self.motions(body).map(|[velocity, spin]| {
-                        let spin = spin * turns;
-                        [velocity - spin.cross(place), spin]
-                    });
+                    sums.centre = place;
+                    sums.rigid = self.motions(body).map(|[velocity, spin]| [velocity, spin * turns]);
                 }
             }
         }
@@ -248,7 +273,9 @@ impl System<'_> {
         for body in 0..clusters::bodies(self.state) {
             let Some(cluster) = clusters.of(body) else { continue };
             let (inertia, sums) = (self.inertia(body), &mut sums[cluster]);
-            let beside = sums.beside(clusters.place(body), &self.motions(body));
+            let motions = self.motions(body);
+            sums.kinetic += inertia.half_square(motions[0]);
+            let beside = sums.beside(clusters.place(body), &motions);
             for (sum, motion) in sums.inertial.iter_mut().zip(beside) {
                 *sum += inertia.half_square(motion);
             }
@@ -257,10 +284,13 @@ impl System<'_> {
             let Some(cluster) = clusters.of(joint.bodies[0]) else { return };
             let sums = &mut sums[cluster];
             // From one body to the next, so that a cluster that goes around a cell has no jump.
-            let [a, b] = joint.bodies.map(|body| self.motions(body));
             let place = clusters.place(joint.bodies[0]);
-            let first = sums.beside(place, &a);
-            let second = sums.beside(place + joint.points[0] - joint.points[1], &b);
+            let places = [place, place + joint.points[0] - joint.points[1]];
+            let [first, second] = [0, 1].map(|end| {
+                let body = joint.bodies[end];
+                let inertia = self.inertia(body);
+                sums.beside(places[end], &self.motions(body)).map(|motion| inertia.moved(motion))
+            });
             for k in 0..2 {
                 sums.elastic[k] += joint.half_square([first[k], second[k]]);
             }

@@ -193,7 +193,12 @@ impl Clock {
         all_finite(&numbers, "clock")?;
         let lengths = self.step > 0.0 && self.last_step >= 0.0 && self.stable > 0.0 && self.speed >= 0.0;
         demand(lengths, "clock", 0, "a step above 0 and a speed of 0 or above")?;
-        demand(self.steps < MOST && self.rebuilds < MOST, "clock", 1, "a count that can be reached")
+        demand(
+            [self.steps, self.rebuilds, self.divided].iter().all(|count| *count < MOST),
+            "clock",
+            1,
+            "a count that can be reached",
+        )
     }
 }
 

@@ -20,6 +20,8 @@ pub struct Clock {
     pub speed: f64,
     /// Time steps made since time 0.
     pub steps: u64,
+    /// Those of them that were made shorter than the scene says, as the stable step was below that.
+    pub divided: u64,
     /// Times the neighbour lists were made.
     pub rebuilds: u64,
 }
