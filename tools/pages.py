@@ -17,13 +17,14 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LAWS = ROOT / "src" / "laws"
-GATHERED = ["*.md", "LICENSE-*", "CITATION.cff", "docs", "python/README.md", "models/*.md", "models/*.png"]
+GATHERED = ["*.md", "LICENSE-*", "CITATION.cff", "docs/**", "python/README.md", "models/*/*.md", "models/*/*.png"]
 """What of the tree is in the book, as patterns of `git ls-files`."""
 ROOMS = {
     "bond/breakage": ("Breakage of bonds", "[bond.<name>.breakage.{}]"),
     "bond/damping": ("Damping of bonds", "[bond.<name>.damping.{}]"),
     "bond/formulation": ("Formulations of bonds", 'formulation = "{}"'),
     "contact/cohesion": ("Cohesion", "[contact.<name>.cohesion.{}]"),
+    "contact/heat": ("Heat", "[contact.<name>.heat.{}]"),
     "contact/normal": ("Normal force", "[contact.<name>.normal.{}]"),
     "contact/rolling": ("Rolling resistance", "[contact.<name>.rolling.{}]"),
     "contact/tangential": ("Friction", "[contact.<name>.tangential.{}]"),
@@ -66,6 +67,13 @@ def keys_of(path):
     return "\n".join([*rows, ""]) if declared else ""
 
 
+def write_code(folder):
+    """Writes a page that leads to what `cargo doc` writes; returns its line in the table of contents."""
+    text = "# The code\n\n`cargo doc` writes a page for each item: [the library](code/cograin/index.html).\n"
+    (folder / "code.md").write_text(text, encoding="utf-8")
+    return "- [The code](code.md)"
+
+
 def write_laws(folder):
     """Writes a page for each law and one for each room; returns their lines in the table of contents."""
     rooms = {}
@@ -100,13 +108,15 @@ def pages_of(pattern, line):
 def gather(folder):
     """Fills the folder from which the book is built."""
     shutil.rmtree(folder, ignore_errors=True)
-    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", *GATHERED]
+    patterns = [f":(glob){pattern}" for pattern in GATHERED]
+    listed = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--", *patterns]
     for name in subprocess.run(listed, cwd=ROOT, check=True, capture_output=True, text=True).stdout.split("\0")[:-1]:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / name, folder / name)
     below = {
         "- [Decisions](docs/decisions/README.md)": pages_of("docs/decisions/[0-9]*.md", "  - [{}]({})"),
         "# Laws": ["", *write_laws(folder)],
+        "- [Contributing](CONTRIBUTING.md)": [write_code(folder)],
         "# Models": ["", *pages_of("models/*/readme.md", "- [{}]({})")],
     }
     contents = []
@@ -127,6 +137,8 @@ def check(folder):
         for link in map(html.unescape, re.findall(r'(?:href|src)="(?!\w+:)([^"]*)"', main)):
             target, _, anchor = link.partition("#")
             place = (page.parent / target).resolve() if target else page
+            if place.is_relative_to(folder.resolve() / "code"):  # written by `cargo doc`
+                continue
             if not place.exists() or (anchor and anchor not in anchors.get(place, {anchor})):
                 broken.append(f"{page.relative_to(folder.resolve())}: {link}")
     return broken

@@ -6,6 +6,7 @@ use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
 use crate::engine::state::Underway;
 use crate::engine::state::clock::MOST_STEPS;
+use crate::engine::transfer;
 use crate::laws::motion::Progress;
 use crate::scene::Boundary;
 
@@ -43,6 +44,8 @@ impl Simulation {
         }
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
+        transfer::end(self.state.heat.as_mut(), elapsed);
+        transfer::tell(&self.scene, &mut self.state);
         if let Some(cell) = &self.cell {
             cell.end(&mut self.state, elapsed);
         }
@@ -52,13 +55,31 @@ impl Simulation {
         result.map(|()| true).map_err(|error| self.named(error))
     }
 
+    /// Refuses inputs that move a boundary where nothing moves.
+    fn check_frozen(&self) -> Result<(), RunError> {
+        if !self.scene.heat.frozen {
+            return Ok(());
+        }
+        for (boundary, moved) in self.scene.boundaries.iter().zip(&self.state.boundaries) {
+            let stands = |axis: usize| if axis < 3 { moved.displacement[axis] } else { moved.rotation[axis - 3] };
+            let moves = |axis: &usize| moved.target[*axis] != stands(*axis) || moved.target_rate[*axis] != 0.0;
+            if let Some(axis) = (0..6).filter(|&axis| boundary.axes[axis].is_driven()).find(moves) {
+                let (boundary, value) = (boundary.name.clone(), moved.target[axis]);
+                return Err(RunError::Frozen { boundary, value, time: self.time() });
+            }
+        }
+        Ok(())
+    }
+
     /// Begins a communication step: what the outside gave is taken.
     fn begin_interval(&mut self, interval: f64) -> Result<(), RunError> {
         if !interval.is_finite() || interval <= 0.0 {
             return Err(RunError::Interval { interval });
         }
+        self.check_frozen()?;
         course::begin(&self.scene, &mut self.state, interval)?;
         nodes::begin(&self.scene, &mut self.state, interval);
+        transfer::begin(self.state.heat.as_mut(), interval);
         if let Some(cell) = &self.cell {
             cell.begin(&mut self.state, interval)?;
         }

@@ -5,8 +5,9 @@ use super::{RunError, Simulation};
 use crate::base::threads::Context;
 use crate::engine::boundaries::course;
 use crate::engine::contacts::FASTER;
-use crate::engine::stability::{self, Limit, System};
+use crate::engine::stability::{self, Limit, Limiter, System};
 use crate::engine::state::{BoundaryState, State};
+use crate::engine::transfer;
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
 use crate::scene::{Boundary, Insertion, Step};
 
@@ -44,13 +45,27 @@ impl Simulation {
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
         let (sight, found, counter) = self.present_bound();
+        if let Some(safe) = self.limited_by_heat(&found) {
+            return Limit { safe, by: Some(Limiter::HEAT) };
+        }
         let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &self.standing());
         Limit { safe: found.safe(), by }
     }
 
     /// The stable time step alone \[s\].
     pub fn stable_step(&self) -> f64 {
-        self.present_bound().1.safe()
+        self.safe(&self.present_bound().1)
+    }
+
+    /// The longest time step that heat allows, where it allows less than what was found \[s\].
+    fn limited_by_heat(&self, found: &stability::StableStep) -> Option<f64> {
+        let longest = transfer::longest_step(self.state.heat.as_ref());
+        (self.scene.heat.frozen || longest < found.safe()).then_some(longest)
+    }
+
+    /// The stable time step by what was found, and by heat \[s\].
+    fn safe(&self, found: &stability::StableStep) -> f64 {
+        self.limited_by_heat(found).unwrap_or(found.safe())
     }
 
     /// The stable time step, what it was foreseen for, and how many iterations have been started.
@@ -104,6 +119,9 @@ impl Simulation {
 
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
+        if self.scene.heat.frozen {
+            return self.scene.run.step.is_automatic().then_some(stable);
+        }
         Some((self.part_of_stable()? * stable).min(self.longest_by_motion()).min(self.longest_by_springs()))
     }
 
@@ -169,11 +187,15 @@ impl Simulation {
             until: window.map_or(0, |window| window.until),
             to: window.map_or(0.0, |window| window.to),
         };
-        self.state.clock.stable = found.safe();
-        if step > found.safe() && matches!(self.scene.run.step, Step::Given(_)) && !self.scene.run.allow_unstable {
-            let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, context);
+        let safe = self.safe(&found);
+        self.state.clock.stable = safe;
+        if step > safe && matches!(self.scene.run.step, Step::Given(_)) && !self.scene.run.allow_unstable {
+            let by = match self.limited_by_heat(&found) {
+                Some(_) => Some(Limiter::HEAT),
+                None => self.system().limiter(&sight.ahead, sight.speed, &found, counter, context),
+            };
             let by = by.map_or_else(String::new, |by| self.words(&by));
-            return Err(RunError::StepTooLong { step, stable: found.safe(), by, time: self.time() });
+            return Err(RunError::StepTooLong { step, stable: safe, by, time: self.time() });
         }
         self.check_contacts()
     }
@@ -229,6 +251,9 @@ impl Simulation {
         let (foresight, clock) = (&self.state.foresight, &self.state.clock);
         let speed = clock.speed.max(0.5 * (clock.speed + boundaries));
         let is_strained = foresight.strained > foresight.strain_reach;
+        if step > transfer::longest_step(self.state.heat.as_ref()) {
+            return true;
+        }
         if foresight.travel > foresight.reach || speed > foresight.speed || is_strained {
             return true;
         }

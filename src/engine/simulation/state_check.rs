@@ -2,6 +2,7 @@
 
 use super::{RunError, Simulation};
 use crate::engine::clumps;
+use crate::engine::columns;
 use crate::engine::flow;
 use crate::engine::state::{State, StateFault, demand};
 use crate::scene::Step;
@@ -22,6 +23,7 @@ impl Simulation {
         state.check(&self.state)?;
         self.search.check(state)?;
         clumps::check(&self.scene, state)?;
+        columns::check(&self.scene, &state.particles)?;
         let count = state.particles.len();
         if let Some(exchange) = &state.exchange {
             flow::check(&self.scene, &state.particles, exchange)?;

@@ -79,12 +79,16 @@ pub(crate) fn particles(
     let discs = scene.particles.iter().any(|particle| particle.shape == ParticleShape::Disc);
     let density = |slot: usize| particles.velocity[slot][3] / ParticleShape::Disc.volume(particles.position[slot][3]);
     let density = discs.then(|| ("density", Values::Scalars(slots().map(density).collect())));
+    let declared = scene.columns.iter().zip(&particles.declared);
+    let declared = declared
+        .map(|(start, values)| (start.column.name, Values::Scalars(slots().map(|slot| values[slot]).collect())));
     PointCloud {
         points,
         cell: around(scene, cell),
         fields: fields
             .into_iter()
             .chain(density)
+            .chain(declared)
             .chain(cell.map(|_| ("unwrapped", Values::Vectors(unwrapped))))
             .chain(sets)
             .chain(clumps)
@@ -155,7 +159,12 @@ fn clumps(scene: &Scene, (particles, clumps): (&Particles, &Clumps), cell: Optio
         ("force", Values::Vectors(three(&clumps.force))),
         ("moment", Values::Vectors(three(&clumps.moment))),
     ];
-    let fields = fields.into_iter().chain(unwrapped).collect();
+    let shared = scene.columns.iter().zip(&particles.declared).filter(|(start, _)| start.column.shared.is_some());
+    let shared = shared.map(|(start, values)| {
+        let value = |clump: usize| values[particles.slot[clumps.spheres_of(clump)[0] as usize] as usize];
+        (start.column.name, Values::Scalars((0..clumps.len()).map(value).collect()))
+    });
+    let fields = fields.into_iter().chain(shared).chain(unwrapped).collect();
     PointCloud { points: three(&clumps.position), cell: around(scene, cell), fields, ..PointCloud::default() }
 }
 

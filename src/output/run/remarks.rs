@@ -294,7 +294,8 @@ fn idle(scene: &Scene) -> Vec<String> {
                     let b = if partner == index { own } else { &scene.materials[partner] };
                     let pair = MaterialPair { a: own, b, properties: &scene.pairs[entry] };
                     let laws = scene.contacts.iter().filter(|law| law.between[entry]);
-                    laws.map(|law| law.choice.coefficients(&pair).ok()).collect::<Vec<_>>()
+                    let read = |law: &ContactLaw| (law.choice.coefficients(&pair).ok(), law.heat_between(&pair));
+                    laws.map(read).collect::<Vec<_>>()
                 };
                 with(other) != with(material)
             })
