@@ -128,8 +128,9 @@ fn without_heat(scene: &SceneDraft) -> Vec<Objection> {
     let boundaries = scene.boundaries.iter().filter(|it| it.temperature != BoundaryTemperature::None);
     let what = || Mistake::InvalidCombination {
         what: "nothing conducts in this scene".to_owned(),
-        expected: "a table [contact.<law>.heat.<model>], a conductivity of bonds or a [heat_source.<name>], or leave it out"
-            .to_owned(),
+        expected:
+            "a table [contact.<law>.heat.<model>], a conductivity of bonds or a [heat_source.<name>], or leave it out"
+                .to_owned(),
     };
     let mut found: Vec<_> =
         boundaries.map(|boundary| (format!("boundary.{}", boundary.name), "temperature", what())).collect();
@@ -158,7 +159,11 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
             !boundary.axes.iter().all(stays) || boundary.nodes != NodeMotion::Rigid
         };
         if let Some(boundary) = scene.boundaries.iter().find(moves) {
-            refuse(format!("boundary.{}", boundary.name), "motion", "nothing moves in a scene with [heat] frozen = true");
+            refuse(
+                format!("boundary.{}", boundary.name),
+                "motion",
+                "nothing moves in a scene with [heat] frozen = true",
+            );
         }
         if scene.cell.as_ref().is_some_and(Cell::moves) {
             refuse("cell".to_owned(), "motion", "nothing moves in a scene with [heat] frozen = true");
@@ -177,7 +182,8 @@ fn sources(scene: &SceneDraft) -> Vec<Objection> {
         let member = source.members.iter().find(|member| carried[**member as usize].is_some())?;
         let (id, name) = (scene.particles[*member as usize].id.0, carried[*member as usize]?);
         let found = format!("particle {id} of [boundary.{name}]");
-        let expected = "particles that are in no boundary: its heat is given by its temperature or applied_heat".to_owned();
+        let expected =
+            "particles that are in no boundary: its heat is given by its temperature or applied_heat".to_owned();
         Some((format!("heat_source.{}", source.name), "particles", Mistake::Unexpected { found, expected }))
     };
     scene.heat_sources.iter().filter_map(of_group).collect()

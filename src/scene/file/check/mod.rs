@@ -28,7 +28,9 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Accuracy, Cell, Derived, HeatSettings, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
+use crate::scene::{
+    Accuracy, Cell, Derived, HeatSettings, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step,
+};
 use crate::scene::{cell, clump, column};
 use finding::Finding;
 use particles::ReadParticles;
