@@ -127,6 +127,9 @@ impl Simulation {
 
     /// Largest speed of what forces move, at the middle of a step of this length \[s\], from rest or not \[m/s\].
     fn coming_speed(&self, step: f64) -> f64 {
+        if self.scene.heat.frozen {
+            return 0.0;
+        }
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         let clumps = clumps::coming_speed(&self.state.clumps, step);
         integration::coming_speed(&self.state.particles, step).max(groups).max(clumps)
