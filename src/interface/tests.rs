@@ -39,7 +39,13 @@ fn draft() -> SceneDraft {
         velocity: [0.0; 3],
         angular_velocity: [0.0; 3],
     };
-    let stone = Material { name: "stone".to_owned(), density: 6.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default() };
+    let stone = Material {
+        name: "stone".to_owned(),
+        density: 6.0,
+        youngs_modulus: None,
+        poissons_ratio: None,
+        thermal: Default::default(),
+    };
     use AxisMotion::{Driven, Fixed, Prescribed};
     SceneDraft {
         materials: vec![stone],

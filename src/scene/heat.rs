@@ -3,7 +3,7 @@
 use super::{AxisMotion, Boundary, Cell, ContactLaw, NodeMotion, SceneDraft};
 use crate::base::document::Mistake;
 use crate::laws::column::TEMPERATURE;
-use crate::laws::contact::{MaterialPair, Missing};
+use crate::laws::contact::{LossKind, MaterialPair, Missing, Warming};
 use std::collections::BTreeSet;
 
 /// The temperature of a boundary.
@@ -42,6 +42,15 @@ impl BoundaryTemperature {
 pub struct HeatSettings {
     /// Whether heat flows while nothing moves.
     pub frozen: bool,
+    /// Which losses of contacts warm the bodies, half each.
+    pub from_losses: Warming,
+}
+
+impl HeatSettings {
+    /// Whether losses warm the bodies.
+    pub(crate) fn warms(&self) -> bool {
+        self.from_losses != Warming::default()
+    }
 }
 
 /// `[heat_source.<name>]`: what warms or cools each of some particles.
@@ -84,7 +93,10 @@ impl SceneDraft {
     /// Whether bodies have a temperature.
     pub fn has_heat(&self) -> bool {
         let bonds = self.bonds.iter().any(|bond| bond.keys.conductivity.is_some());
-        bonds || !self.heat_sources.is_empty() || self.contacts.iter().any(|law| law.heat.is_some())
+        bonds
+            || self.heat.warms()
+            || !self.heat_sources.is_empty()
+            || self.contacts.iter().any(|law| law.heat.is_some())
     }
 
     /// Temperatures of the particles at the start, where heat flows \[K\].
@@ -128,8 +140,9 @@ fn without_heat(scene: &SceneDraft) -> Vec<Objection> {
     let boundaries = scene.boundaries.iter().filter(|it| it.temperature != BoundaryTemperature::None);
     let what = || Mistake::InvalidCombination {
         what: "nothing conducts in this scene".to_owned(),
-        expected: "a table [contact.<law>.heat.<model>], a conductivity of bonds or a [heat_source.<name>], or leave it out"
-            .to_owned(),
+        expected:
+            "a table [contact.<law>.heat.<model>], a conductivity of bonds or a [heat_source.<name>], or leave it out"
+                .to_owned(),
     };
     let mut found: Vec<_> =
         boundaries.map(|boundary| (format!("boundary.{}", boundary.name), "temperature", what())).collect();
@@ -152,13 +165,31 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
     if let Some(insertion) = scene.insertions.first().filter(|_| scene.heat.frozen) {
         refuse(format!("insertion.{}", insertion.name), "", "nothing moves in a scene with [heat] frozen = true");
     }
+    if scene.heat.frozen && scene.heat.warms() {
+        refuse("heat".to_owned(), "from_losses", "nothing moves in a scene with [heat] frozen = true");
+    }
+    let holds = |law: &&ContactLaw| law.choice.rolling.row().history().is_some();
+    if let Some(law) = scene.contacts.iter().find(holds).filter(|_| scene.heat.from_losses[LossKind::Rolling as usize])
+    {
+        let (name, model) = (&law.name, law.choice.rolling.name());
+        let message = format!(
+            "expected losses that are heat at once, found \"rolling\": the rolling model {model} of [contact.{name}] is a spring, which \
+             holds part of it"
+        );
+        found.push(("heat".to_owned(), "from_losses", Mistake::Refused { message }));
+        return found;
+    }
     if scene.heat.frozen {
         let moves = |boundary: &&Boundary| {
             let stays = |axis: &AxisMotion| (axis.is_fixed() && axis.conveys() == 0.0) || axis.takes_place();
             !boundary.axes.iter().all(stays) || boundary.nodes != NodeMotion::Rigid
         };
         if let Some(boundary) = scene.boundaries.iter().find(moves) {
-            refuse(format!("boundary.{}", boundary.name), "motion", "nothing moves in a scene with [heat] frozen = true");
+            refuse(
+                format!("boundary.{}", boundary.name),
+                "motion",
+                "nothing moves in a scene with [heat] frozen = true",
+            );
         }
         if scene.cell.as_ref().is_some_and(Cell::moves) {
             refuse("cell".to_owned(), "motion", "nothing moves in a scene with [heat] frozen = true");
@@ -177,7 +208,8 @@ fn sources(scene: &SceneDraft) -> Vec<Objection> {
         let member = source.members.iter().find(|member| carried[**member as usize].is_some())?;
         let (id, name) = (scene.particles[*member as usize].id.0, carried[*member as usize]?);
         let found = format!("particle {id} of [boundary.{name}]");
-        let expected = "particles that are in no boundary: its heat is given by its temperature or applied_heat".to_owned();
+        let expected =
+            "particles that are in no boundary: its heat is given by its temperature or applied_heat".to_owned();
         Some((format!("heat_source.{}", source.name), "particles", Mistake::Unexpected { found, expected }))
     };
     scene.heat_sources.iter().filter_map(of_group).collect()

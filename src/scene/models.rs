@@ -3,8 +3,8 @@
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
 use crate::laws::column::{Column, TEMPERATURE};
 use crate::laws::contact::{
-    self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
-    RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
+    self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel,
+    NormalRow, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
 };
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
 

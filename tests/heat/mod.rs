@@ -2,6 +2,7 @@
 
 mod balance;
 mod boundaries;
+mod losses;
 mod network;
 mod refused;
 mod same_bits;

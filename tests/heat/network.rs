@@ -69,7 +69,14 @@ fn sites(kind: &str) -> &'static [[i32; 3]] {
 /// are held \[W/(m K)\].
 fn effective_conductivity(kind: &str) -> f64 {
     let distance = 1.99e-3;
-    let edge = distance * if kind == "sc" { 1.0 } else if kind == "bcc" { 2.0 / 3.0_f64.sqrt() } else { 2.0_f64.sqrt() };
+    let edge = distance
+        * if kind == "sc" {
+            1.0
+        } else if kind == "bcc" {
+            2.0 / 3.0_f64.sqrt()
+        } else {
+            2.0_f64.sqrt()
+        };
     let (mut list, mut id, mut ends) = (String::new(), 0, [Vec::new(), Vec::new()]);
     for (x, y, z) in (0..27).map(|n| (n % 3, n / 3 % 3, n / 9)).chain((0..9).map(|n| (n % 3, n / 3, 3))) {
         for &[u, v, w] in sites(kind) {

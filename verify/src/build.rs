@@ -9,8 +9,8 @@ use cograin::bond::keys::FormulationChoice;
 use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
-    AppliedForce, AxisMotion, Body, Boundary, BoundaryTemperature, ContactLaw, Damping, HeatSettings, InputCourse, NodeMotion, Outside, Particle,
-    ParticleShape, Run, Scene, SceneDraft, Shape, Step,
+    AppliedForce, AxisMotion, Body, Boundary, BoundaryTemperature, ContactLaw, Damping, HeatSettings, InputCourse,
+    NodeMotion, Outside, Particle, ParticleShape, Run, Scene, SceneDraft, Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -34,7 +34,8 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
             return Err(law::absent(missing[0].key));
         }
     }
-    let contact = ContactLaw { name: "contact".into(), between: vec![true; pairs.len()], choice: law, heat: heat::model(case)? };
+    let contact =
+        ContactLaw { name: "contact".into(), between: vec![true; pairs.len()], choice: law, heat: heat::model(case)? };
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
     let draft = SceneDraft {
@@ -57,7 +58,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
         damping: damping(case, &particles)?,
         forces: forces(case, &index_of)?,
         columns: heat::columns(case)?,
-        heat: HeatSettings { frozen: case.frozen },
+        heat: HeatSettings { frozen: case.frozen, ..HeatSettings::default() },
         heat_sources: heat::sources(case, &index_of)?,
         particles,
         ..SceneDraft::default()

@@ -4,9 +4,9 @@ use super::build::positive;
 use super::case::{Case, Conducted};
 use super::error::{Mistake, VerifyError};
 use super::trajectory::Sample;
+use cograin::column::TEMPERATURE;
 use cograin::contact::heat::overlap_area::{Area, Keys};
 use cograin::contact::{HeatModel, NoKeys};
-use cograin::column::TEMPERATURE;
 use cograin::scene::{Boundary, BoundaryTemperature, ColumnStart, HeatGiven, HeatSource, Models};
 use cograin::simulation::Simulation;
 use std::collections::BTreeMap;
@@ -114,7 +114,8 @@ pub(super) fn model(case: &Case) -> Result<Option<HeatModel>, Mistake> {
         "overlap_area" => models.heat(name, Keys { area }),
         _ => models.heat(name, NoKeys {}),
     };
-    let unknown = || Mistake::new("model.heat", format!("expected constriction, overlap_area or transfer, found \"{name}\""));
+    let unknown =
+        || Mistake::new("model.heat", format!("expected constriction, overlap_area or transfer, found \"{name}\""));
     found.map(Some).ok_or_else(unknown)
 }
 
@@ -167,12 +168,17 @@ pub(super) fn of_wall(temperature: Option<f64>) -> BoundaryTemperature {
 }
 
 /// Particles that are held at a temperature, each a group of its own.
-pub(super) fn held(case: &Case, index_of: &BTreeMap<u32, u32>, like: &dyn Fn(u32) -> Boundary) -> Result<Vec<Boundary>, Mistake> {
+pub(super) fn held(
+    case: &Case,
+    index_of: &BTreeMap<u32, u32>,
+    like: &dyn Fn(u32) -> Boundary,
+) -> Result<Vec<Boundary>, Mistake> {
     let mut all = Vec::new();
     for (place, held) in case.held_temperatures.iter().enumerate() {
         let place = format!("held_temperatures[{place}]");
         for member in super::build::members(&place, &held.ids, index_of)? {
-            let temperature = BoundaryTemperature::Held(positive(format!("{place}.temperature"), held.temperature)?.get());
+            let temperature =
+                BoundaryTemperature::Held(positive(format!("{place}.temperature"), held.temperature)?.get());
             all.push(Boundary { temperature, ..like(member) });
         }
     }

@@ -6,8 +6,8 @@ use crate::base::threads::Context;
 use crate::engine::boundaries::course;
 use crate::engine::contacts::FASTER;
 use crate::engine::stability::{self, Limit, Limiter, System};
-use crate::engine::transfer;
 use crate::engine::state::{BoundaryState, State};
+use crate::engine::transfer;
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
 use crate::scene::{Boundary, Insertion, Step};
 

@@ -127,6 +127,9 @@ impl Simulation {
     /// particles must be zero.
     pub(super) fn evaluate(&mut self, fields: bool, context: &Context) -> Result<(), RunError> {
         let (mut result, told) = (Ok(()), self.state.breaks.len());
+        if let Some(heat) = self.state.heat.as_mut().filter(|_| self.scene.heat.warms()) {
+            heat.collect(self.state.particles.len());
+        }
         self.workspace.between.begin();
         if let Some(cell) = self.cell.as_mut().filter(|_| !self.passes.is_empty()) {
             cell.begin_evaluation(&mut self.state);

@@ -17,8 +17,8 @@ use crate::interface::{Causality, Variable};
 use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
-use heat::{OF_HEAT, OF_HEATED};
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
+use heat::{OF_HEAT, OF_HEATED};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
 use row::Each;
@@ -64,7 +64,8 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         .chain(each(&OF_OUTLETS, scene.outlets.len()))
         .chain(each(&OF_METERS, scene.meters.len()))
         .chain(each(&OF_PROBES, scene.probes.len()));
-    let of_scene = OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).chain(&OF_HEAT).map(|row| (row, none));
+    let of_scene =
+        OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).chain(&OF_HEAT).map(|row| (row, none));
     let places = of_boundaries
         .chain(each(&OF_REGIONS, scene.regions.len()))
         .chain(exchange)

@@ -10,8 +10,8 @@ use super::{
     TangentialModel, coefficients, normal, rolling, tangential,
 };
 use crate::base::number::{Number, Vector};
-use crate::laws::contact::Thermal;
 use crate::base::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
+use crate::laws::contact::Thermal;
 
 /// Friction that takes all there is.
 pub(super) const ALL: FrictionNeeds = FrictionNeeds { stiffness: true, damping: true };

@@ -36,16 +36,19 @@ pub(crate) use coefficients::coefficients;
 pub use law::Offset;
 pub use law::{Law, OFFSET};
 pub(crate) use losses::parting;
-pub use losses::{Booked, LossKind, Seen};
+pub use losses::{Booked, LossKind, Seen, Warming};
 pub use material::{Material, MaterialPair, Missing, PairProperties, Thermal};
 pub use model::{
-    CohesionFunctions, CohesionModel, CohesionRow, HeatFunctions, HeatModel, HeatRow, Model, ModelRow, NormalFunctions, NormalModel, NormalRow,
-    RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel, TangentialRow,
+    CohesionFunctions, CohesionModel, CohesionRow, HeatFunctions, HeatModel, HeatRow, Model, ModelRow, NormalFunctions,
+    NormalModel, NormalRow, RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel,
+    TangentialRow,
 };
 pub use places::{CoefficientPlaces, HistoryPlaces};
 pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
-pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Heat, Normal, NormalForm, Rolling, RollingResponse, Tangential};
+pub use sub_model::{
+    Cohesion, CohesionForm, FrictionNeeds, Heat, Normal, NormalForm, Rolling, RollingResponse, Tangential,
+};
 
 pub use crate::laws::kept::ModelKeys;
 

@@ -2,8 +2,8 @@
 //! them with their keys.
 
 use super::batch::{self, Run};
-use super::heat::Spot;
 use super::functions::{self, CohesionFunction, NormalFunction, RollingFunction, TangentialFunction};
+use super::heat::Spot;
 use super::{
     Adhesion, Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, Heat, HistoryRow, MaterialPair, Missing,
     Needs, Normal, NormalForm, Objection, Onset, Response, Rolling, RollingResponse, Tangential,

@@ -8,8 +8,8 @@ use crate::engine::simulation::Simulation;
 use crate::laws::contact::impact::LONGEST_PART;
 use crate::laws::surface::Group;
 use crate::scene::{
-    Accuracy, AxisMotion, Body, Bond, Boundary, BoundaryTemperature, Cell, InputCourse, NodeMotion, Outside, Particle, Scene, SceneDraft,
-    Shape, Step,
+    Accuracy, AxisMotion, Body, Bond, Boundary, BoundaryTemperature, Cell, InputCourse, NodeMotion, Outside, Particle,
+    Scene, SceneDraft, Shape, Step,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -47,7 +47,8 @@ pub(super) fn boundaries(
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
         let (nodes, outside) = (boundary.nodes, boundary.outside);
         let temperature = heat::temperature(boundary, &table, (materials, born, columns), faults);
-        let boundary = Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside, temperature };
+        let boundary =
+            Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside, temperature };
         alone(&boundary, faults);
         boundaries.push(boundary);
     }

@@ -74,10 +74,9 @@ pub(super) fn sources(written: &RawTables, born: &ReadParticles, faults: &mut Fa
         let members = members(&source.particles, born, &table, faults);
         let gives = match (source.power, &source.ambient) {
             (Some(power), None) => HeatGiven::Power(power.get()),
-            (None, Some(ambient)) => HeatGiven::Ambient {
-                temperature: ambient.temperature.get(),
-                conductance: ambient.conductance.get(),
-            },
+            (None, Some(ambient)) => {
+                HeatGiven::Ambient { temperature: ambient.temperature.get(), conductance: ambient.conductance.get() }
+            }
             (None, None) => {
                 let expected = "power = .. [W] or ambient = { temperature, conductance }".to_owned();
                 faults.add(&table, "", Mistake::Missing { expected });

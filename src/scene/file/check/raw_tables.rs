@@ -16,8 +16,8 @@ use crate::scene::cell::CellKeys;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
-    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable, ParticlesTable, RunTable,
-    TABLES, Triple,
+    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable,
+    ParticlesTable, RunTable, TABLES, Triple,
 };
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
