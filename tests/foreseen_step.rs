@@ -1,8 +1,7 @@
 //! Contacts and bonds that come are foreseen by the time step, and what stops a run is named.
 //!
-//! What was wrong: the automatic step took no notice of the speed of planes, of dashpots of bonds and of bonds made later;
-//! it was shortened between communication steps alone; `time_step.stable` was not renewed where the step is given; and
-//! the messages blamed the step where speed or load was the cause.
+//! The automatic step knows the speed of planes, the dashpots of bonds and bonds to come. It becomes shorter inside a communication
+//! step. `time_step.stable` is renewed where the step is given. Messages name speed or load where these are the cause.
 
 use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;

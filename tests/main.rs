@@ -49,6 +49,7 @@ mod scenes;
 mod schemes;
 mod servo;
 mod stable_step;
+mod stages;
 mod starting;
 mod statics;
 mod support;

@@ -1,8 +1,7 @@
 //! The automatic time step follows the moment: impacts of two bodies are as accurate as `[run] accuracy` says, whenever and wherever they
 //! come; packings take the stable step.
 //!
-//! What was wrong: the automatic step was a fifth of the stable one all the time, so a bed that settled made four times as many time steps
-//! as it needed, and trials of one communication step could be divided differently.
+//! All trials of a communication step are divided alike.
 
 use crate::support::start;
 use cograin::quantity::BoundaryIndex;

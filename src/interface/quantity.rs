@@ -148,7 +148,7 @@ impl Quantity {
         }
     }
 
-    /// That of a parameter with this unit; a whole number without one.
+    /// The quantity of a parameter with this unit; a whole number without one.
     pub(super) fn of_unit(unit: Option<&str>) -> Self {
         Self::ALL.iter().copied().find(|quantity| quantity.unit() == unit).unwrap_or(Self::Ratio)
     }

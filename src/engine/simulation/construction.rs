@@ -2,6 +2,7 @@
 
 use super::repeats::Repeats;
 use super::rollback::Rollback;
+use super::stages::Stages;
 use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
@@ -11,6 +12,7 @@ use crate::engine::boundaries::rigid_body;
 use crate::engine::cell::Cell;
 use crate::engine::clumps::{self, ClumpBodies};
 use crate::engine::contacts::suppression::Suppression;
+use crate::engine::energy::PendingWork;
 use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
@@ -45,8 +47,10 @@ impl Simulation {
         let passes = assemble::passes(&scene);
         let turning = passes.iter().any(|pass| pass.has_torque());
         let flow = Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations()));
+        let workspace = Workspace { between: PendingWork::of(&passes), ..Workspace::default() };
         let mut simulation = Self {
             turning,
+            stages: Stages::default(),
             passes,
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
@@ -63,13 +67,14 @@ impl Simulation {
             workers: Workers::new(scene.run.threads, most_particles(&scene)),
             scene,
             state,
-            workspace: Workspace::default(),
+            workspace,
             rollback: Rollback::default(),
             repeats: Repeats::default(),
             stop: None,
             watch: None,
         };
         simulation.take_coefficients();
+        simulation.choose_stages();
         simulation
     }
 
@@ -105,11 +110,9 @@ impl Simulation {
     pub(super) fn start(&mut self) -> Result<(), RunError> {
         transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
-        self.clear_boundary_loads();
         let context = self.standing();
-        integration::clear_loads(&mut self.state.particles);
-        let result = self.evaluate(true, &context);
-        self.book_second_kick(None, 0.0, &context);
+        let result = self.evaluate(&context);
+        self.book_second_kick(None, &context);
         self.open_energy_book();
         self.look_at_heat(&context);
         result.map_err(|error| self.named(error))?;
@@ -126,6 +129,9 @@ impl Simulation {
 
     /// Largest speed of what forces move, at the middle of a step of this length \[s\], from rest or not \[m/s\].
     fn coming_speed(&self, step: f64) -> f64 {
+        if self.scene.heat.frozen {
+            return 0.0;
+        }
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         let clumps = clumps::coming_speed(&self.state.clumps, step);
         integration::coming_speed(&self.state.particles, step).max(groups).max(clumps)

@@ -21,6 +21,7 @@ mod repeats;
 mod rollback;
 mod run_checks;
 mod sight;
+mod stages;
 mod start;
 mod state_check;
 mod taken_over;
@@ -38,6 +39,7 @@ pub use placement::{PlacedBond, PlacedParticle, Placement};
 pub use probe::{Displacement, Probe, ProbeBody};
 pub(crate) use run_checks::COLLAPSING_COHESION;
 pub use run_checks::number;
+pub use stages::{Part, Phase, Stage, all_stages};
 pub use taken_over::Description;
 
 use crate::base::lanes::Width;
@@ -60,6 +62,7 @@ use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
 use repeats::Repeats;
 use rollback::Rollback;
+use stages::Stages;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -69,6 +72,8 @@ pub struct Simulation {
     scene: Arc<Scene>,
     /// Everything that changes.
     state: State,
+    /// What a time step is made of.
+    stages: Stages,
     /// Interactions, in the order they are evaluated.
     passes: Vec<Box<dyn Pass>>,
     /// Gravity, applied forces, damping.
@@ -107,7 +112,7 @@ pub struct Simulation {
     repeats: Repeats,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
-    /// In benchmarks, the function that is called after each part of a time step.
+    /// In benchmarks, the function that is called after each stage of a time step.
     watch: Option<Watch>,
 }
 
@@ -120,6 +125,8 @@ struct Workspace {
     loads: Vec<BoundaryLoads>,
     /// Sum of the forces of global damping then \[N\].
     damping_force: [f64; 3],
+    /// Sum of the forces of global damping on groups, surfaces and clumps now \[N\].
+    braking: [f64; 3],
     /// Nodes of meshes before the time step.
     nodes: nodes::NodeWorkspace,
     /// How many contacts each body has.
@@ -130,8 +137,8 @@ struct Workspace {
     between: energy::PendingWork,
 }
 
-/// A function that gets the name of each part of a time step when it is done.
-pub type Watch = Box<dyn FnMut(&'static str) + Send>;
+/// A function that gets the name of each stage of a time step when it is done, and the state then.
+pub type Watch = Box<dyn FnMut(&'static str, &State) + Send>;
 
 impl Simulation {
     /// What passes know while time does not advance.
@@ -148,6 +155,7 @@ impl Simulation {
     pub fn damp_rest(&mut self, fraction: f64) {
         self.rollback.forget();
         self.fields.damp_rest(fraction, self.scene.particles.len());
+        self.choose_stages();
     }
 
     /// From now on an interval ends after its present time step if this flag is set ([`RunError::Stopped`]).
@@ -160,16 +168,9 @@ impl Simulation {
         self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
-    /// Calls this function, from now on, after each part of a time step: to measure what each part costs.
+    /// Calls this function, from now on, after each stage of a time step: to measure what each costs.
     pub fn watch(&mut self, watch: Watch) {
         self.watch = Some(watch);
-    }
-
-    /// Tells that a part of a time step is done.
-    fn done(&mut self, part: &'static str) {
-        if let Some(watch) = &mut self.watch {
-            watch(part);
-        }
     }
 
     /// The scene.

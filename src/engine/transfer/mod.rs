@@ -41,6 +41,11 @@ pub(crate) fn temperature(state: &State, slot: usize) -> Option<f64> {
     })
 }
 
+/// Specific heat of the particle in a slot, where heat flows \[J/(kg K)\].
+pub(crate) fn specific_heat(scene: &Scene, state: &State, slot: usize) -> f64 {
+    scene.materials[state.particles.material[slot] as usize].thermal.specific_heat.unwrap_or(0.0)
+}
+
 impl Transfer {
     /// What conducts in a scene, if anything does.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {

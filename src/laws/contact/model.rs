@@ -198,7 +198,7 @@ impl NormalFunctions {
 }
 
 impl NormalRow {
-    /// That of a normal model.
+    /// The row of a normal model.
     pub const fn of<M: Normal>() -> &'static Self {
         const {
             &Self {
@@ -298,7 +298,7 @@ pub struct TangentialFunctions {
 }
 
 impl TangentialRow {
-    /// That of a tangential model.
+    /// The row of a tangential model.
     pub const fn of<M: Tangential>() -> &'static Self {
         const {
             &Self {
@@ -377,7 +377,7 @@ pub struct RollingFunctions {
 }
 
 impl RollingRow {
-    /// That of a rolling model.
+    /// The row of a rolling model.
     pub const fn of<M: Rolling>() -> &'static Self {
         const {
             &Self {
@@ -458,7 +458,7 @@ pub struct CohesionFunctions {
 }
 
 impl CohesionRow {
-    /// That of a cohesion model.
+    /// The row of a cohesion model.
     pub const fn of<M: Cohesion>() -> &'static Self {
         const {
             &Self {

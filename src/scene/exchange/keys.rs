@@ -32,11 +32,11 @@ pub enum Outside {
 /// How much comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
-    /// So much in each second \[kg/s\].
+    /// Mass in each second \[kg/s\].
     MassRate(f64),
-    /// So many in each second \[1/s\].
+    /// Number in each second \[1/s\].
     CountRate(f64),
-    /// So much in all, as soon as there is room \[kg\].
+    /// Mass in all, as soon as there is room \[kg\].
     Mass(f64),
 }
 
@@ -104,7 +104,7 @@ pub(crate) struct OutletKeys {
 pub(crate) enum BeyondKeys {
     /// The far side of the boundary of this name.
     Boundary(String),
-    /// That of a plane.
+    /// The far side of a plane.
     Plane(PlaneKeys),
 }
 
