@@ -1,6 +1,5 @@
 //! How a simulation comes into being: built from a scene, or taken over with a state of it.
 
-use super::repeats::Repeats;
 use super::rollback::Rollback;
 use super::stages::Stages;
 use super::{RunError, Simulation, Workspace, assemble};
@@ -69,7 +68,6 @@ impl Simulation {
             state,
             workspace,
             rollback: Rollback::default(),
-            repeats: Repeats::default(),
             stop: None,
             watch: None,
         };

@@ -211,6 +211,17 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
             Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
         );
     }
+    let strict = match (table.strict_step, table.step, table.allow_unstable) {
+        (Some(true), None | Some(StepKey::Automatic), _) => {
+            Some(("an automatic step is never above the stable one", "give a step, or leave strict_step out"))
+        }
+        (Some(true), _, Some(true)) => Some(("strict_step beside allow_unstable", "one of them")),
+        _ => None,
+    };
+    if let Some((what, expected)) = strict {
+        let (what, expected) = (what.to_owned(), expected.to_owned());
+        faults.add("run", "strict_step", Mistake::InvalidCombination { what, expected });
+    }
     if table.plane_particles.is_some() && table.plane.is_none() {
         let (what, expected) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
         faults.add(
@@ -230,6 +241,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         accuracy,
         scheme: table.scheme.unwrap_or(accuracy.scheme()),
         allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
+        strict_step: table.strict_step.unwrap_or(defaults.strict_step),
         threads: table.threads.map(|threads| threads.get() as usize),
         seed: table.seed.unwrap_or(defaults.seed),
         skin: table.skin.map(crate::base::quantity::Positive::get),
