@@ -4,6 +4,7 @@ mod balance;
 mod bodies;
 mod boundaries;
 mod inputs;
+mod losses;
 mod network;
 mod refused;
 mod same_bits;

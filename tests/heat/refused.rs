@@ -20,7 +20,8 @@ fn the_stable_step_is_that_of_the_body_that_exchanges_most() {
 
 #[test]
 fn a_bed_at_rest_heats_for_an_hour_in_a_few_time_steps() {
-    let text = with_step("\"auto\"") + "[heat_source.air]\nparticles = { set = \"all\" }\n\
+    let text = with_step("\"auto\"")
+        + "[heat_source.air]\nparticles = { set = \"all\" }\n\
                ambient = { temperature = 290.0, conductance = 1.0e-5 }\n";
     let mut simulation = start(&text);
     simulation.advance(3600.0).unwrap();

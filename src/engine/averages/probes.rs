@@ -115,13 +115,7 @@ fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
     }
     let mean = |sum: Vector| (sum * (1.0 / mass)).to_array();
     let temperature = if capacity > 0.0 { heat / capacity } else { 0.0 };
-    Sight {
-        position: mean(place),
-        velocity: mean(momentum),
-        force: force.to_array(),
-        temperature,
-        ..Sight::default()
-    }
+    Sight { position: mean(place), velocity: mean(momentum), force: force.to_array(), temperature, ..Sight::default() }
 }
 
 /// What the two particles of each probe of a contact do to each other, by contact and bond.

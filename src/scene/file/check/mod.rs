@@ -28,9 +28,7 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{
-    Accuracy, Cell, Derived, HeatSettings, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step,
-};
+use crate::scene::{Accuracy, Cell, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
 use crate::scene::{cell, clump, column};
 use finding::Finding;
 use particles::ReadParticles;
@@ -84,7 +82,7 @@ pub(super) fn scene(
         boundaries,
         damping,
         forces,
-        heat: HeatSettings { frozen: written.heat.frozen },
+        heat: written.heat.settings(),
         heat_sources,
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
@@ -146,6 +144,8 @@ impl SceneDraft {
 /// Reports what the parts of a scene are not to each other.
 fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let repeated = cell::repeat_surfaces(draft);
+    // Losses that warm are found by the book of losses.
+    draft.output.losses |= draft.heat.warms();
     let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
