@@ -58,11 +58,14 @@ UNITS = {
     "mass_flow": "kg/s",
     "stress": "Pa",
     "mean_stress": "Pa",
+    "conjugate_stress": "Pa",
     "target_stress": "Pa",
     "volume": "m3",
-    "temperature": "m2/s2",
+    "granular_temperature": "m2/s2",
     "stiffness": "N/m",
 }
+#: Those of a periodic cell where a boundary has another quantity of this name.
+CELL_UNITS = {"stiffness": "Pa", "servo_error": "Pa"}
 
 
 def unit_of(name: str) -> str:
@@ -71,7 +74,8 @@ def unit_of(name: str) -> str:
     Names of derived outputs and ``<insertion>.rate`` tell none: `Table.unit_of` knows those of a run or a record.
     """
     first, *words = name.split(".")
-    return next((UNITS[word] for word in reversed(words) if word in UNITS), FIRST.get(first, "1"))
+    units = UNITS | CELL_UNITS if first == "cell" else UNITS
+    return next((units[word] for word in reversed(words) if word in units), FIRST.get(first, "1"))
 
 
 class ResultError(Exception):

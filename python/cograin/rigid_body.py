@@ -47,7 +47,8 @@ class RigidBody:
     point, or a row for each). Every boundary has six directions of the interface: displacement.x, .y, .z,
     rotation.x, .y, .z.
     ``gravity`` \\[m/s²\\]; ``load(time)`` gives further forces at the mass centre and moments, six numbers in global
-    axes. With a ``pivot`` the body only turns about this point.
+    axes. ``velocity`` \\[m/s\\] of the mass centre and ``angular_velocity`` \\[rad/s\\], in global axes, are those at time 0.
+    With a ``pivot`` the body only turns about this point.
 
     A step changes momentum and angular momentum by impulse and angular impulse of forces and moments, and turns the
     body through H times the mean of its angular velocities (in its own axes) at begin and end, at a constant rate in
@@ -70,7 +71,11 @@ class RigidBody:
         gravity: ArrayLike = (0.0, 0.0, 0.0),
         load: Callable[[float], ArrayLike] | None = None,
         pivot: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+        angular_velocity: ArrayLike | None = None,
     ) -> None:
+        if pivot is not None and velocity is not None:
+            raise ValueError("velocity: a body on a pivot only turns; expected angular_velocity alone")
         if not 0.0 < mass < np.inf:
             raise ValueError(f"mass: expected a finite number above 0, found {mass}")
         middle = _three("centre", centre)
@@ -97,6 +102,7 @@ class RigidBody:
         self._tried: tuple[Step, Vector, _Motion] | None = None
         self._complied: tuple[Step, Matrix] | None = None
         self.displacement = self._standing()
+        self.place(velocity=velocity, angular_velocity=angular_velocity)
 
     # What it is and does
 
