@@ -31,7 +31,7 @@ pub struct Content {
 impl Content {
     /// Granular temperature: a third of the mean square of the velocity less the mean velocity \[m²/s²\]; 0 where there is no
     /// mass.
-    pub fn temperature(&self) -> f64 {
+    pub fn granular_temperature(&self) -> f64 {
         let trace: f64 = (0..3).map(|axis| self.fluctuation[axis][axis]).sum();
         if self.mass > 0.0 { trace / (3.0 * self.mass) } else { 0.0 }
     }

@@ -381,9 +381,11 @@ impl CellState {
         all_finite(squares.as_flattened().as_flattened(), "cell")?;
         let sixes = [self.strain, self.rate, self.start, self.end, self.target, self.target_rate];
         all_finite(sixes.as_flattened(), "cell")?;
-        all_finite([self.stiffness, self.action, self.mean_stress].as_flattened(), "cell")?;
+        let means = [self.stress_sum, self.mean_stress, self.conjugate_stress];
+        all_finite(means.as_flattened(), "cell")?;
+        all_finite([self.stiffness, self.held_rate, self.action].as_flattened(), "cell")?;
         all_finite(&self.impulse, "cell")?;
-        all_finite(&[self.volume_before, self.work], "cell")?;
+        all_finite(&[self.inertia, self.volume_before, self.work], "cell")?;
         let count = self.images.len();
         let columns = self.originals.len() == count && self.displaced.len() == count;
         demand(columns && count == particles.images(), "images", count, "an entry for each image")?;

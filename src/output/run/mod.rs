@@ -13,7 +13,7 @@ mod summary;
 
 pub use frame_writer::FrameWriter;
 pub use order::{EarlierResults, Progress, RunOrder, Start};
-pub use remarks::remarks;
+pub use remarks::{course, remarks};
 pub use settle::{SettleOrder, SettleProgress, SettleStart, Settled, settle};
 pub use summary::Summary;
 

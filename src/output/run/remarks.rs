@@ -41,8 +41,16 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(cracks(scene));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
-    remarks.extend(overlap(simulation));
     remarks.extend(falling(scene));
+    remarks.extend(course(simulation));
+    remarks
+}
+
+/// Those of them that follow from how a simulation went, not from its scene alone.
+pub fn course(simulation: &Simulation) -> Vec<String> {
+    let scene = simulation.scene();
+    let mut remarks = Vec::new();
+    remarks.extend(overlap(simulation));
     remarks.extend(full(scene, simulation));
     remarks.extend(missed(scene, simulation));
     remarks
