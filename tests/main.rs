@@ -18,6 +18,7 @@ mod clump_cell;
 mod clump_exchange;
 mod clumps;
 mod coefficients;
+mod deepest;
 mod derivatives;
 mod every_law;
 mod every_surface;

@@ -172,6 +172,9 @@ impl State {
         self.nodes.iter().try_for_each(Nodes::check)?;
         self.ledger.iter().try_for_each(|ledger| ledger.check(self.boundaries.len(), self.clumps.len()))?;
         self.losses.iter().try_for_each(Losses::check)?;
+        all_finite(&[self.deepest.overlap, self.deepest.time], "deepest")?;
+        let is_there = self.deepest.boundary.is_none_or(|boundary| (boundary as usize) < self.boundaries.len());
+        demand(is_there, "deepest", 0, "a boundary of the scene")?;
         all_finite(&self.damping_force, "damping_force")?;
         all_finite(&self.damping_impulse, "damping_impulse")?;
         let sound = self.exchange.as_ref().is_none_or(Exchange::is_sound);

@@ -260,7 +260,7 @@ impl<'a> Session<'a> {
     fn end(mut self, result: Result<(), Failure>) -> Result<Summary, Failure> {
         let result = result.and(self.writer.finish().map_err(Failure::from));
         let momentum = self.momentum.balance(&self.simulation);
-        self.meter.look(&self.simulation);
+        self.meter.count(&self.simulation);
         let mut summary =
             Summary::new(&self.order, &self.simulation, &self.meter, self.start, momentum, result.as_ref().err());
         summary.left_behind = self.left_behind;

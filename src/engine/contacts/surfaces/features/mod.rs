@@ -75,7 +75,7 @@ impl AtSurface {
         unsafe { entries.flags.part(0, count) }.fill(0);
         let held = at.moving.map(|_| held.columns());
         let bodies = AtFeet { at, particle, number, foot, weight, held, material: self.material, particles };
-        let load = self.run(&self.batches(bodies, entries, (work.context.step, work.context.width)), 0..count);
+        let load = self.run(&self.batches(bodies, entries, work), 0..count);
         // SAFETY: as above.
         finish(unsafe { entries.flags.part(0, count) }, weight);
         Load { behind, ..load }
