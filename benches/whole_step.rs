@@ -262,7 +262,7 @@ impl Options {
     fn watch(&self, simulation: &mut Simulation, work: f64) {
         let parts: Arc<Mutex<BTreeMap<&str, f64>>> = Arc::default();
         let (told, mut before) = (parts.clone(), Instant::now());
-        simulation.watch(Box::new(move |part| {
+        simulation.watch(Box::new(move |part, _| {
             *told.lock().expect("one thread tells").entry(part).or_default() += before.elapsed().as_secs_f64();
             before = Instant::now();
         }));

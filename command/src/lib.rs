@@ -41,7 +41,7 @@ struct Arguments {
     /// What to do.
     #[command(subcommand)]
     command: Command,
-    /// Tell no progress and no closing line; reports and errors are still told
+    /// Show no progress and no closing line; reports and errors still appear
     #[arg(short, long, global = true)]
     quiet: bool,
 }

@@ -33,6 +33,8 @@ pub(crate) enum Part<'k> {
     Only(&'k [&'k str]),
     /// All but these, which are read on their own.
     Except(&'k [&'k str]),
+    /// All but these, of the table and of the entries of its lists.
+    ExceptInLists(&'k [&'k str]),
 }
 
 /// A scene's text, parsed.
@@ -87,6 +89,13 @@ impl<'a> Document<'a> {
     /// Whether the scene has this table or key.
     pub(crate) fn has(&self, path: &str) -> bool {
         self.find(path).is_some()
+    }
+
+    /// Whether the scene has a table or key at this dotted path, in which `*` stands for any name.
+    pub(crate) fn has_any(&self, path: &str) -> bool {
+        let Some((before, after)) = path.split_once('*') else { return self.has(path) };
+        let names = self.names(before.trim_end_matches('.'));
+        names.iter().any(|name| self.has_any(&format!("{before}{name}{after}")))
     }
 
     /// The keys of a table, in the order in which the text has them.

@@ -257,7 +257,7 @@ impl Cell {
     }
 
     /// Gives passes the velocities that include the streaming motion.
-    pub(crate) fn begin_evaluation(&mut self, state: &mut State) {
+    pub(crate) fn stream(&mut self, state: &mut State) {
         let Some(cell) = &mut state.cell else { return };
         cell.virial = Square::default();
         let Some(cell) = state.cell.as_ref().filter(|cell| cell.streams()) else { return };
@@ -269,42 +269,37 @@ impl Cell {
         std::mem::swap(&mut self.other, &mut state.particles.velocity);
     }
 
-    /// When passes of one kind are done: images hand on their loads, and velocities are again those without the streaming motion. Where
-    /// no more passes between particles follow, the virial is found.
-    pub(crate) fn end_kind(&mut self, state: &mut State, is_last: bool, context: &Context) {
+    /// Lets images hand on the loads that passes of one kind have put on them.
+    pub(crate) fn gather_images(&self, state: &mut State) {
         let State { cell: Some(cell), particles, .. } = state else { return };
         let lattice = self.images.lattice(cell);
         let sum = images::gather(&lattice, cell, particles);
         add(&mut cell.virial, &sum);
-        if cell.streams() {
-            std::mem::swap(&mut self.other, &mut particles.velocity);
-        }
-        if is_last {
-            let (here, origin) = (&*state, state.cell.as_ref().map_or([0.0; 3], |cell| cell.origin));
-            let (force, count) = (&here.particles.force, here.particles.len());
-            let of_piece = |piece: usize| {
-                let mut sum = Square::default();
-                for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
-                    let point = here.carried_point(slot);
-                    let place = [0, 1, 2].map(|axis| point[axis] - origin[axis]);
-                    add_dyad(&mut sum, [force[slot][0], force[slot][1], force[slot][2]], place);
-                }
-                sum
-            };
-            let sum = context.fold(count.div_ceil(CHUNK), of_piece, Square::default(), |mut sum, part| {
-                add(&mut sum, &part);
-                sum
-            });
-            if let Some(cell) = &mut state.cell {
-                add(&mut cell.virial, &sum);
-            }
-        }
     }
 
-    /// Gives passes of the next kind the velocities that include the streaming motion.
-    pub(crate) fn begin_kind(&mut self, state: &mut State) {
-        if state.cell.as_ref().is_some_and(CellState::streams) {
+    /// Finds the virial of the loads that stand among the particles, and takes the streaming motion out of their velocities.
+    pub(crate) fn find_virial(&mut self, state: &mut State, context: &Context) {
+        let Some(cell) = &state.cell else { return };
+        if cell.streams() {
             std::mem::swap(&mut self.other, &mut state.particles.velocity);
+        }
+        let (here, origin) = (&*state, cell.origin);
+        let (force, count) = (&here.particles.force, here.particles.len());
+        let of_piece = |piece: usize| {
+            let mut sum = Square::default();
+            for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
+                let point = here.carried_point(slot);
+                let place = [0, 1, 2].map(|axis| point[axis] - origin[axis]);
+                add_dyad(&mut sum, [force[slot][0], force[slot][1], force[slot][2]], place);
+            }
+            sum
+        };
+        let sum = context.fold(count.div_ceil(CHUNK), of_piece, Square::default(), |mut sum, part| {
+            add(&mut sum, &part);
+            sum
+        });
+        if let Some(cell) = &mut state.cell {
+            add(&mut cell.virial, &sum);
         }
     }
 

@@ -2,9 +2,9 @@
 //!
 //! Loads are stored only where the next kind may act: near surfaces, and everywhere for bonds and fields.
 
-use super::{bodies, multiply, plus, row};
+use super::{multiply, plus, row};
 use crate::base::lanes::{self, Kernel, Lane, Width};
-use crate::engine::boundaries::RigidBody;
+use crate::engine::contacts::Pass;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Particles, Row, State, WallContacts};
 
@@ -37,7 +37,7 @@ impl Loads {
 /// What the book stores from the evaluation of the forces to the kick that follows.
 #[derive(Default)]
 pub(crate) struct PendingWork {
-    /// The kind of force that passes added last; that before surfaces where these follow another kind.
+    /// The last kind of force that passes add; that before surfaces where these follow another kind.
     pub(super) last: Option<Source>,
     /// Loads before bonds acted.
     pub(super) bonds: Loads,
@@ -48,45 +48,34 @@ pub(crate) struct PendingWork {
 }
 
 impl PendingWork {
+    /// For these passes.
+    pub(crate) fn of(passes: &[Box<dyn Pass>]) -> Self {
+        let acts = |source: &Source| passes.iter().any(|pass| pass.source() == *source);
+        let last = [Source::Bonds, Source::Contacts].into_iter().find(acts);
+        Self { last, ..Self::default() }
+    }
+
     /// Forgets the loads of the evaluation before.
     pub(crate) fn begin(&mut self) {
-        self.last = None;
         for loads in [&mut self.bonds, &mut self.walls, &mut self.fields] {
             loads.stored = false;
         }
     }
 
-    /// Notes the loads when the passes of one kind are done. `next` is the kind of those that follow.
-    pub(crate) fn note(
-        &mut self,
-        state: &mut State,
-        bodies: &[Option<RigidBody>],
-        source: Source,
-        next: Option<Source>,
-    ) {
-        if state.ledger.is_none() {
-            return;
-        }
-        bodies::note(state, bodies, source);
-        if !self.walls.stored {
-            self.last = Some(source);
-        }
-        match next {
-            Some(Source::Walls) => self.store_near(state),
-            Some(_) => self.bonds.store(&state.particles),
-            None => {}
-        }
+    /// Stores the loads before bonds act on the particles.
+    pub(crate) fn before_bonds(&mut self, particles: &Particles) {
+        self.bonds.store(particles);
     }
 
     /// Stores the loads before fields act on the particles.
-    pub(crate) fn note_before_fields(&mut self, state: &State) {
+    pub(crate) fn before_fields(&mut self, state: &State) {
         if state.ledger.is_some() {
             self.fields.store(&state.particles);
         }
     }
 
-    /// Stores the loads on the particles near surfaces.
-    fn store_near(&mut self, state: &State) {
+    /// Stores the loads before surfaces act, on the particles near them.
+    pub(crate) fn before_surfaces(&mut self, state: &State) {
         let (Loads { stored, force, torque }, particles) = (&mut self.walls, &state.particles);
         *stored = true;
         force.resize(particles.len(), [0.0; 4]);

@@ -12,7 +12,7 @@ use crate::engine::state::{BoundaryState, Particles, State};
 pub(super) type OnBodies = [Vec<[f64; 6]>; Source::PASSES];
 
 /// Notes the loads on the spheres of bodies so far, of which the last are of this kind.
-pub(super) fn note(state: &mut State, bodies: &[Option<RigidBody>], source: Source) {
+pub(crate) fn note(state: &mut State, bodies: &[Option<RigidBody>], source: Source) {
     let State { particles, boundaries, cell, ledger: Some(ledger), .. } = state else { return };
     let of_body = |(body, moved): (&Option<RigidBody>, &BoundaryState)| {
         let (mut force, mut moment) = (Vector::zero(), Vector::zero());

@@ -6,6 +6,7 @@ pub(crate) mod losses;
 pub(crate) mod work;
 
 pub(crate) use between::PendingWork;
+pub(crate) use bodies::note as note_on_bodies;
 
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::boundaries::RigidBody;

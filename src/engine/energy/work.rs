@@ -24,18 +24,17 @@ pub(crate) fn book_first(state: &mut State, fields: &Fields, bodies: &[Option<Ri
     book_bodies(state, fields, bodies, step);
 }
 
-/// Books the half kick that ends a step of this length \[s\], about to be made with the present loads and with gravity \[m/s²\] where
+/// Books the half kick that ends a step, about to be made with the present loads and with gravity \[m/s²\] where
 /// that is not yet among them. At time 0 its length is 0: the powers are found.
 pub(crate) fn book_second(
     state: &mut State,
     between: &mut PendingWork,
     (fields, gravity): (&Fields, Option<[f64; 3]>),
     bodies: &[Option<RigidBody>],
-    step: f64,
     context: &Context,
 ) {
-    book_particles(state, between, (fields, gravity), step, context);
-    book_bodies(state, fields, bodies, step);
+    book_particles(state, between, (fields, gravity), context);
+    book_bodies(state, fields, bodies, context.step);
 }
 
 /// Books the second half kick of the particles.
@@ -43,12 +42,11 @@ fn book_particles(
     state: &mut State,
     between: &mut PendingWork,
     (fields, gravity): (&Fields, Option<[f64; 3]>),
-    step: f64,
     context: &Context,
 ) {
     let State { particles, walls, ledger: Some(ledger), .. } = state else { return };
     let particles = &*particles;
-    let half = 0.5 * step;
+    let half = 0.5 * context.step;
     let of_walls = between.of_walls(particles, walls, gravity, context.width);
     let between = &*between;
     let on_piece = |piece: usize| {

@@ -105,6 +105,11 @@ impl Fields {
         self.damps || self.applies() || self.gravity != [0.0; 3]
     }
 
+    /// Whether anything but gravity does.
+    pub(crate) fn act_beside_weight(&self) -> bool {
+        self.damps || self.applies()
+    }
+
     /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].
     pub(crate) fn apply(&self, state: &mut State, context: &Context) -> [f64; 3] {
         if !self.damps && self.applied.is_empty() {

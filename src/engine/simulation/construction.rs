@@ -1,7 +1,7 @@
 //! How a simulation comes into being: built from a scene, or taken over with a state of it.
 
-use super::repeats::Repeats;
 use super::rollback::Rollback;
+use super::stages::Stages;
 use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
@@ -11,10 +11,12 @@ use crate::engine::boundaries::rigid_body;
 use crate::engine::cell::Cell;
 use crate::engine::clumps::{self, ClumpBodies};
 use crate::engine::contacts::suppression::Suppression;
+use crate::engine::energy::PendingWork;
 use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
 use crate::engine::state::{Foresight, Pace, State, StateFault};
+use crate::engine::transfer::{self, Transfer};
 use crate::laws::bond::creation::Moment;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
@@ -44,8 +46,10 @@ impl Simulation {
         let passes = assemble::passes(&scene);
         let turning = passes.iter().any(|pass| pass.has_torque());
         let flow = Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations()));
+        let workspace = Workspace { between: PendingWork::of(&passes), ..Workspace::default() };
         let mut simulation = Self {
             turning,
+            stages: Stages::default(),
             passes,
             fields: Fields::of(&scene),
             bodies: rigid_body::of(&scene),
@@ -53,6 +57,7 @@ impl Simulation {
             cell: Cell::of(&scene),
             clumps: ClumpBodies::of(&scene),
             flow,
+            transfer: Transfer::of(&scene),
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
             passing: Passing::of(&scene),
@@ -61,13 +66,13 @@ impl Simulation {
             workers: Workers::new(scene.run.threads, most_particles(&scene)),
             scene,
             state,
-            workspace: Workspace::default(),
+            workspace,
             rollback: Rollback::default(),
-            repeats: Repeats::default(),
             stop: None,
             watch: None,
         };
         simulation.take_coefficients();
+        simulation.choose_stages();
         simulation
     }
 
@@ -101,13 +106,13 @@ impl Simulation {
 
     /// The evaluation before the first step, and what follows from it.
     pub(super) fn start(&mut self) -> Result<(), RunError> {
+        transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
-        self.clear_boundary_loads();
         let context = self.standing();
-        integration::clear_loads(&mut self.state.particles);
-        let result = self.evaluate(true, &context);
-        self.book_second_kick(None, 0.0, &context);
+        let result = self.evaluate(&context);
+        self.book_second_kick(None, &context);
         self.open_energy_book();
+        self.look_at_heat(&context);
         result.map_err(|error| self.named(error))?;
         (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
         self.state.clock.speed = self.coming_speed(0.0);

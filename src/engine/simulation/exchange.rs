@@ -1,20 +1,21 @@
 //! Particles that come and go: when in a time step, and what the books need of it.
 
+use super::time_step::TimeStep;
 use super::{RunError, Simulation};
 use crate::engine::energy::losses::StoredEnergy;
 use crate::engine::flow::{Flow, RemovedParticles};
 
 impl Simulation {
-    /// Lets particles come and go in the middle of a time step of this length \[s\], in which nothing moved further than `way`
-    /// \[m\]. Returns whether any did, so that lists are to be made anew.
-    pub(super) fn exchange(&mut self, way: f64, step: f64) -> Result<bool, RunError> {
-        let Some(flow) = self.flow.take() else { return Ok(false) };
-        let changed = self.come_and_go(&flow, way, step);
+    /// Lets particles come and go in the middle of a time step. Where any did, lists are to be made anew.
+    pub(super) fn exchange(&mut self, step: &mut TimeStep) {
+        let Some(flow) = self.flow.take() else { return };
+        let changed = self.come_and_go(&flow, step.farthest, step.length());
         self.flow = Some(flow);
-        changed
+        step.outdated |= !matches!(changed, Ok(false));
+        step.note(changed.map(|_| ()));
     }
 
-    /// The same by what lets them.
+    /// The same by what lets them, where nothing moved further than `way` \[m\]. Returns whether any came or went.
     fn come_and_go(&mut self, flow: &Flow, way: f64, step: f64) -> Result<bool, RunError> {
         flow.pass(&self.scene, &mut self.state, way, step);
         let leaving = flow.leaving(&self.scene, &mut self.state, step)?;

@@ -1,14 +1,15 @@
 //! What is looked for and made anew on the way: neighbour lists, particles that come and go, bonds.
 
-use super::{RunError, Simulation};
+use super::Simulation;
+use super::time_step::TimeStep;
 use crate::base::threads::Context;
 use crate::engine::cell::Cell;
 use crate::laws::bond::creation::Moment;
 
 impl Simulation {
-    /// Sees to the lists after a drift in which no particle that forces move went further than this way \[m\], and in
-    /// which a periodic cell was strained: they are made anew where they are outdated, or where particles come or go. An error leaves lists that fit the particles.
-    pub(super) fn keep_lists(&mut self, way: f64, strain: f64, context: &Context) -> Result<(), RunError> {
+    /// Sums up how far everything went in a step, and tells whether the lists no longer hold every pair that can touch.
+    pub(super) fn sum_way(&mut self, step: &mut TimeStep) {
+        let (way, strain) = (step.way, step.strain);
         let travels = &self.workspace.travels;
         let carried = travels.iter().fold(0.0_f64, |most, travel| most.max(travel.carried));
         let extents = self.state.neighbours.boundary_extent.iter().copied().chain(std::iter::repeat(0.0));
@@ -23,15 +24,18 @@ impl Simulation {
         self.state.neighbours.travel = after;
         self.state.foresight.travel += farthest;
         self.state.foresight.strained += strain * near;
-        let outdated = self.search.outdated(&mut self.state, context);
-        let depth = if self.is_depth_due(way, [before, after]) { self.check_depth() } else { Ok(()) };
-        let changed = self.exchange(farthest, context.step);
-        if !outdated && matches!(changed, Ok(false)) {
-            return depth;
+        (step.farthest, step.outdated) = (farthest, self.search.outdated(&mut self.state, step.context));
+        if self.is_depth_due(way, [before, after]) {
+            step.note(self.check_depth());
         }
-        let result = depth.and(changed.map(|_| ())).and_then(|()| self.check_domain());
-        self.rebuild(context);
-        result
+    }
+
+    /// Makes the lists anew where they are outdated, or where particles came or went.
+    pub(super) fn renew_outdated(&mut self, step: &mut TimeStep) {
+        if step.outdated {
+            step.note(self.check_domain());
+            self.rebuild(step.context);
+        }
     }
 
     /// Makes the lists anew.

@@ -17,10 +17,10 @@ mod pace;
 mod placement;
 mod plane;
 mod probe;
-mod repeats;
 mod rollback;
 mod run_checks;
 mod sight;
+mod stages;
 mod start;
 mod state_check;
 mod taken_over;
@@ -38,6 +38,7 @@ pub use placement::{PlacedBond, PlacedParticle, Placement};
 pub use probe::{Displacement, Probe, ProbeBody};
 pub(crate) use run_checks::COLLAPSING_COHESION;
 pub use run_checks::number;
+pub use stages::{Part, Phase, Stage, all_stages};
 pub use taken_over::Description;
 
 use crate::base::lanes::Width;
@@ -54,11 +55,13 @@ use crate::engine::energy;
 use crate::engine::flow::Flow;
 use crate::engine::integration::Fields;
 use crate::engine::neighbours;
+use crate::engine::stability::Vibrations;
 use crate::engine::state::State;
+use crate::engine::transfer::Transfer;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
-use repeats::Repeats;
 use rollback::Rollback;
+use stages::Stages;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -68,6 +71,8 @@ pub struct Simulation {
     scene: Arc<Scene>,
     /// Everything that changes.
     state: State,
+    /// What a time step is made of.
+    stages: Stages,
     /// Interactions, in the order they are evaluated.
     passes: Vec<Box<dyn Pass>>,
     /// Gravity, applied forces, damping.
@@ -86,6 +91,8 @@ pub struct Simulation {
     cell: Option<Cell>,
     /// Clumps, where the scene has any.
     clumps: Option<ClumpBodies>,
+    /// What lets heat flow, where any does.
+    transfer: Option<Transfer>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.
@@ -100,11 +107,9 @@ pub struct Simulation {
     workspace: Workspace,
     /// What is needed to return to the beginning of a communication step that fails.
     rollback: Rollback,
-    /// How communication steps were divided.
-    repeats: Repeats,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
-    /// In benchmarks, the function that is called after each part of a time step.
+    /// In benchmarks, the function that is called after each stage of a time step.
     watch: Option<Watch>,
 }
 
@@ -117,18 +122,22 @@ struct Workspace {
     loads: Vec<BoundaryLoads>,
     /// Sum of the forces of global damping then \[N\].
     damping_force: [f64; 3],
+    /// Sum of the forces of global damping on groups, surfaces and clumps now \[N\].
+    braking: [f64; 3],
     /// Nodes of meshes before the time step.
     nodes: nodes::NodeWorkspace,
     /// How many contacts each body has.
     contacts: Vec<u8>,
+    /// How bonded bodies vibrate.
+    vibrations: Vibrations,
     /// Bonds of each law before some were made.
     bonds: Vec<usize>,
     /// Loads between one kind of force and the next, for the energy book.
     between: energy::PendingWork,
 }
 
-/// A function that gets the name of each part of a time step when it is done.
-pub type Watch = Box<dyn FnMut(&'static str) + Send>;
+/// A function that gets the name of each stage of a time step when it is done, and the state then.
+pub type Watch = Box<dyn FnMut(&'static str, &State) + Send>;
 
 impl Simulation {
     /// What passes know while time does not advance.
@@ -145,6 +154,7 @@ impl Simulation {
     pub fn damp_rest(&mut self, fraction: f64) {
         self.rollback.forget();
         self.fields.damp_rest(fraction, self.scene.particles.len());
+        self.choose_stages();
     }
 
     /// From now on an interval ends after its present time step if this flag is set ([`RunError::Stopped`]).
@@ -157,16 +167,9 @@ impl Simulation {
         self.stop.as_ref().is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
-    /// Calls this function, from now on, after each part of a time step: to measure what each part costs.
+    /// Calls this function, from now on, after each stage of a time step: to measure what each costs.
     pub fn watch(&mut self, watch: Watch) {
         self.watch = Some(watch);
-    }
-
-    /// Tells that a part of a time step is done.
-    fn done(&mut self, part: &'static str) {
-        if let Some(watch) = &mut self.watch {
-            watch(part);
-        }
     }
 
     /// The scene.

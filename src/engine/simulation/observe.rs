@@ -6,7 +6,6 @@ use crate::base::threads::Context;
 use crate::engine::cell::Fabric;
 use crate::engine::contacts::{BondRecord, ContactRecord, SLIGHT};
 use crate::engine::energy;
-use crate::engine::integration;
 use crate::engine::state::State;
 use crate::engine::state::contacts::{TOUCHING, is_resting, is_suppressed, is_told};
 use crate::engine::state::exchange::NetExchange;
@@ -159,11 +158,9 @@ impl Simulation {
     pub fn undamped_unbalanced_force(&mut self) -> f64 {
         let kept = self.state.clone();
         let damped = self.fields.without_damping();
-        self.clear_boundary_loads();
-        integration::clear_loads(&mut self.state.particles);
         let context = self.standing();
         // What an evaluation finds wrong the next time step finds, too.
-        let ratio = self.evaluate(true, &context).map_or(f64::INFINITY, |()| self.unbalanced_force());
+        let ratio = self.evaluate(&context).map_or(f64::INFINITY, |()| self.unbalanced_force());
         self.fields.damp_as(damped);
         self.state = kept;
         ratio

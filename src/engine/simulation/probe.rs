@@ -7,7 +7,6 @@ use crate::base::quantity::BoundaryIndex;
 use crate::base::threads::Context;
 use crate::engine::boundaries::rigid_body::{self, RigidBody};
 use crate::engine::contacts::{Link, SearchLimits};
-use crate::engine::integration;
 use crate::engine::state::{BoundaryState, Clumps, Orientation, State};
 use std::sync::Arc;
 
@@ -72,6 +71,7 @@ impl Probe {
         let slowly = SLOWLY * if stable > 0.0 && stable.is_finite() { stable } else { 1.0 };
         let mut simulation = Simulation::with(Arc::clone(&simulation.scene), rest.clone());
         simulation.fields.without_damping();
+        simulation.choose_stages();
         Self { simulation, rest, slowly }
     }
 
@@ -140,10 +140,8 @@ impl Probe {
         }
         let Simulation { scene, bodies, state, .. } = &mut *simulation;
         rigid_body::place_groups(scene, bodies, state);
-        simulation.clear_boundary_loads();
-        integration::clear_loads(&mut simulation.state.particles);
         let context = Context { step: slowly, ..simulation.standing() };
-        simulation.evaluate(false, &context)?;
+        simulation.evaluate_interactions(&context)?;
         Ok(&simulation.state)
     }
 
@@ -156,10 +154,8 @@ impl Probe {
     pub(crate) fn loaded(&mut self) -> Result<&Simulation, RunError> {
         let Self { simulation, rest, slowly } = self;
         simulation.state.clone_from(rest);
-        simulation.clear_boundary_loads();
-        integration::clear_loads(&mut simulation.state.particles);
         let context = Context { step: *slowly, ..simulation.standing() };
-        simulation.evaluate(true, &context)?;
+        simulation.evaluate(&context)?;
         Ok(simulation)
     }
 

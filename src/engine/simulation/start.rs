@@ -5,6 +5,7 @@ use crate::base::threads::Context;
 use crate::engine::boundaries::{course, nodes, placing, rigid_body};
 use crate::engine::flow;
 use crate::engine::state::{BoundaryState, State};
+use crate::engine::transfer;
 use crate::scene::{AxisMotion, Scene};
 use std::sync::Arc;
 
@@ -13,10 +14,10 @@ impl Simulation {
     /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
-        let State { particles, clumps, mut neighbours, contacts, walls, bonds, exchange, cell, .. } = reached;
+        let State { particles, clumps, mut neighbours, contacts, walls, bonds, exchange, cell, heat, .. } = reached;
         neighbours.made_at = 0;
         let mut state =
-            State { particles, clumps, neighbours, contacts, walls, bonds, exchange, ..assemble::state(&scene) };
+            State { particles, clumps, neighbours, contacts, walls, bonds, exchange, heat, ..assemble::state(&scene) };
         if let (Some(begun), Some(ended)) = (&mut state.cell, cell) {
             begun.stay(ended);
         }
@@ -73,6 +74,7 @@ impl Simulation {
         if let (Some(cell), Some(given)) = (&self.cell, &inputs.cell) {
             moves |= cell.put(&mut self.state, given);
         }
+        loads |= transfer::put(&self.scene, self.state.heat.as_mut(), inputs.heat.as_ref());
         if moves {
             rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
             self.rebuild(&self.standing());
@@ -95,6 +97,11 @@ impl Simulation {
         }
         if let (Some(cell), Some(given)) = (&mut self.state.cell, &other.state.cell) {
             (cell.target, cell.target_rate) = (given.target, given.target_rate);
+        }
+        if let (Some(heat), Some(given)) = (&mut self.state.heat, &other.state.heat) {
+            for (boundary, given) in heat.boundaries.iter_mut().zip(&given.boundaries) {
+                (boundary.target, boundary.target_rate) = (given.target, given.target_rate);
+            }
         }
         take_rates(&mut self.state, &other.state);
     }

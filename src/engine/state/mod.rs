@@ -13,6 +13,7 @@ pub mod contacts;
 pub mod deepest;
 pub mod exchange;
 pub mod foresight;
+pub mod heat;
 mod history;
 mod in_place;
 pub mod ledger;
@@ -35,6 +36,7 @@ pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use deepest::{Deepest, Named};
 pub use exchange::Exchange;
 pub use foresight::Foresight;
+pub use heat::Heat;
 pub use history::History;
 pub use ledger::Ledger;
 pub use losses::{Loss, Losses};
@@ -97,6 +99,8 @@ pub struct State {
     pub exchange: Option<Exchange>,
     /// The periodic cell, where the scene has one.
     pub cell: Option<CellState>,
+    /// Temperatures, where heat flows.
+    pub heat: Option<Heat>,
 }
 
 clone_in_place!(State {
@@ -121,7 +125,8 @@ clone_in_place!(State {
     damping_force,
     damping_impulse,
     exchange,
-    cell
+    cell,
+    heat
 });
 
 impl State {
@@ -217,6 +222,9 @@ impl State {
         }
         if let Some(cell) = &mut self.cell {
             cell.begin_counting();
+        }
+        if let Some(heat) = &mut self.heat {
+            heat.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

@@ -30,7 +30,7 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
         moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
         lies.as_deref().map(cell),
-        rigid.as_deref().map(|rigid| clumps(scene, rigid, lies.as_deref())),
+        rigid.as_deref().map(|rigid| clumps(scene, (&bodies, rigid), lies.as_deref())),
     ]
 }
 
@@ -75,10 +75,14 @@ pub(crate) fn particles(
         let rows = slots().flat_map(|slot| particles.orientation[slot]).collect();
         ("orientation", Values::Quaternions(rows))
     });
+    let declared = scene.columns.iter().zip(&particles.declared);
+    let declared = declared
+        .map(|(start, values)| (start.column.name, Values::Scalars(slots().map(|slot| values[slot]).collect())));
     PointCloud {
         points,
         fields: fields
             .into_iter()
+            .chain(declared)
             .chain(cell.map(|_| ("unwrapped", Values::Vectors(unwrapped))))
             .chain(sets)
             .chain(clumps)
@@ -110,7 +114,7 @@ fn places(scene: &Scene, particles: &Particles, cell: Option<&CellState>) -> [Ve
 }
 
 /// The clumps: mass centres, and how their own frames are turned.
-fn clumps(scene: &Scene, clumps: &Clumps, cell: Option<&CellState>) -> PointCloud {
+fn clumps(scene: &Scene, (particles, clumps): (&Particles, &Clumps), cell: Option<&CellState>) -> PointCloud {
     let three = |rows: &[[f64; 4]]| rows.iter().flat_map(|[x, y, z, _]| [*x, *y, *z]).collect::<Vec<_>>();
     let turned = |(row, shape): (&[f64; 4], &u32)| {
         let axes = Quaternion::from_row(scene.clump_shapes[*shape as usize].axes);
@@ -135,7 +139,12 @@ fn clumps(scene: &Scene, clumps: &Clumps, cell: Option<&CellState>) -> PointClou
         ("force", Values::Vectors(three(&clumps.force))),
         ("moment", Values::Vectors(three(&clumps.moment))),
     ];
-    let fields = fields.into_iter().chain(unwrapped).collect();
+    let shared = scene.columns.iter().zip(&particles.declared).filter(|(start, _)| start.column.shared.is_some());
+    let shared = shared.map(|(start, values)| {
+        let value = |clump: usize| values[particles.slot[clumps.spheres_of(clump)[0] as usize] as usize];
+        (start.column.name, Values::Scalars((0..clumps.len()).map(value).collect()))
+    });
+    let fields = fields.into_iter().chain(shared).chain(unwrapped).collect();
     PointCloud { points: three(&clumps.position), fields, ..PointCloud::default() }
 }
 

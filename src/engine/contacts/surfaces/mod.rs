@@ -12,7 +12,7 @@ mod sphere;
 
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
-use super::pass::Pass;
+use super::pass::{Pass, SurfaceTouch};
 use super::records::ContactRecord;
 use crate::base::lanes::Shared;
 use crate::base::number::Vector;
@@ -404,6 +404,20 @@ impl Pass for SurfacePass {
             match surface.plane_list(state) {
                 Some(list) => listed::records(&list, state, step, tell),
                 None => surface.records_at_features(state, step, tell),
+            }
+        }
+    }
+
+    fn touched(&self, state: &State, tell: &mut dyn FnMut(SurfaceTouch)) {
+        for surface in &self.surfaces {
+            let (boundary, law) = (surface.list(state).boundary, surface.law_index);
+            match surface.plane_list(state) {
+                Some(list) => listed::touched(&list, state, &mut |slot, overlap| {
+                    tell(SurfaceTouch { slot, boundary, law, overlap, weight: 1.0 });
+                }),
+                None => surface.touched_at_features(state, &mut |slot, overlap, weight| {
+                    tell(SurfaceTouch { slot, boundary, law, overlap, weight });
+                }),
             }
         }
     }

@@ -23,6 +23,8 @@ pub struct Description {
     course: u64,
     /// Numbers of the particles, ascending: first and count of each series.
     particles: Vec<[u32; 2]>,
+    /// Declared columns of the particles: names.
+    columns: Vec<String>,
     /// Materials: names.
     materials: Vec<String>,
     /// Insertions: name, and what is to come, without the value of a rate.
@@ -58,6 +60,7 @@ impl Description {
             fingerprint: scene.fingerprint,
             course: course(scene),
             particles,
+            columns: scene.columns.iter().map(|start| start.column.name.to_owned()).collect(),
             materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
             insertions: scene.insertions.iter().map(|it| (it.name.clone(), amount(it))).collect(),
             boundaries: scene.boundaries.iter().map(|it| (it.name.clone(), shape(it).to_owned())).collect(),
@@ -86,6 +89,8 @@ impl Description {
         let count = self.particles.iter().map(|&[_, count]| u64::from(count)).sum::<u64>();
         let own = state.particles.slot.len() - state.particles.numbers.len();
         demand(count == own as u64, "particles", own, same)?;
+        let declared = state.particles.declared.len();
+        demand(declared == self.columns.len(), "declared", declared, same)?;
         let known = state.particles.material.iter().all(|&material| (material as usize) < self.materials.len());
         demand(known, "material", 0, "materials of the scene")?;
         let feeds = state.exchange.as_ref().map_or(0, |exchange| exchange.feeds.len());
@@ -112,6 +117,11 @@ impl Description {
     /// Numbers of the particles, ascending.
     pub(super) fn ids(&self) -> impl Iterator<Item = u32> + '_ {
         self.particles.iter().flat_map(|&[first, count]| (0..count).map(move |k| first + k))
+    }
+
+    /// Names of the declared columns of the particles.
+    pub(super) fn columns(&self) -> &[String] {
+        &self.columns
     }
 
     /// The place here of each of the other scene's materials that has a name of this scene's.

@@ -1,5 +1,6 @@
 //! Sets of clumps: where each is placed, and the spheres that follow.
 
+use super::columns::ByName;
 use super::named_tables::Named;
 use super::place::Place;
 use super::raw_tables::RawTables;
@@ -18,7 +19,7 @@ use std::collections::BTreeMap;
 const TURN: [&str; 4] = ["qw", "qx", "qy", "qz"];
 
 /// Clumps of a set, where they stand in its text or file, and the further columns of its file.
-type Read = (Vec<Placed>, Place, BTreeMap<String, Vec<f64>>);
+type Read = (Vec<Placed>, Place, ByName);
 
 /// How large a clump is.
 #[derive(Clone, Copy)]
@@ -113,7 +114,8 @@ impl SetReader<'_> {
         let ParticlesTable { list, file, lattice, packing, .. } = self.written;
         let fallback = self.clump_material(keys, faults);
         if let Some(list) = list {
-            return Some((self.listed_clumps(list, fallback, faults), Place::Nowhere, BTreeMap::new()));
+            let columns = self.listed_columns(faults);
+            return Some((self.listed_clumps(list, fallback, faults), Place::Nowhere, columns));
         }
         if let Some(file) = file {
             return self.filed_clumps(file, fallback, source, extra, faults);
@@ -267,7 +269,7 @@ impl SetReader<'_> {
             one.density = density.or(one.density);
             placed.push(one);
         }
-        let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        let columns = self.further_columns(file, &mut rows, extra, faults);
         Some((placed, Place::File(file.to_owned(), rows.lines, rows.around), columns))
     }
 }

@@ -7,6 +7,7 @@ use super::set_reader::{SetReader, Unnumbered};
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::quantity::{ParticleId, SetIndex};
+use crate::laws::column::Column;
 use crate::laws::contact::Material;
 use crate::scene::Source;
 use crate::scene::cell::fault_of;
@@ -29,7 +30,7 @@ pub(super) struct ReadParticles {
     pub(super) clumps: Vec<Clump>,
     /// Names of the sets.
     pub(super) sets: Vec<String>,
-    /// Columns of each set that damping asks for.
+    /// Columns of each set that damping or the scene asks for.
     pub(super) columns: Vec<BTreeMap<String, Vec<f64>>>,
     /// Boxes that files say: table, file, box.
     pub(super) boxes: Vec<(String, String, FileBox)>,
@@ -39,7 +40,7 @@ pub(super) struct ReadParticles {
 pub(super) fn particles(
     written: &RawTables,
     source: &Source,
-    materials: &[Material],
+    (materials, asked): (&[Material], &[&'static Column]),
     faults: &mut Faults,
     tell: &mut dyn FnMut(PackingProgress),
 ) -> ReadParticles {
@@ -73,7 +74,9 @@ pub(super) fn particles(
             shape,
             shapes: &born.shapes,
             keys: &written.clumps,
+            columns: asked,
         };
+        let extra: Vec<String> = extra.iter().cloned().chain(reader.names_in_files()).collect();
         let (list, clumps, place, columns) = reader.read(source, &extra, faults, tell);
         if let Place::File(file, _, Some(around)) = &place {
             born.boxes.push((reader.table.clone(), file.clone(), *around));

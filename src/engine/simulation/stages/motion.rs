@@ -1,0 +1,78 @@
+//! What the stages of the motion do: half a kick and the drift, and what follows from where everything stands then.
+
+use super::super::Simulation;
+use super::super::time_step::TimeStep;
+use crate::engine::boundaries::{course, nodes, rigid_body};
+use crate::engine::{clumps, energy, integration};
+
+impl Simulation {
+    /// Whether a book of energy is kept.
+    pub(super) fn keeps_books(&self) -> bool {
+        self.state.ledger.is_some() || self.state.losses.is_some()
+    }
+
+    /// Whether particles have orientations.
+    pub(super) fn has_orientations(&self) -> bool {
+        self.passes.iter().any(|pass| pass.needs_orientations())
+    }
+
+    /// Whether there are boundaries.
+    pub(super) fn has_boundaries(&self) -> bool {
+        !self.scene.boundaries.is_empty()
+    }
+
+    /// Books the half kick that is about to begin the step.
+    pub(super) fn book_first_half(&mut self, step: &mut TimeStep) {
+        let length = step.length();
+        energy::work::book_first(&mut self.state, &self.fields, &self.bodies, length);
+        energy::losses::begin_step(&mut self.state, &self.fields, &self.bodies, length);
+        clumps::book_work(&mut self.state, &self.fields, length);
+        clumps::book_losses(&mut self.state, &self.fields, length);
+    }
+
+    /// Makes the first half of the kick and the drift of the particles that forces move. Their loads are zero then.
+    pub(super) fn kick_and_drift(&mut self, step: &mut TimeStep) {
+        let particles = &mut self.state.particles;
+        let speed = integration::kick_and_drift(particles, step.length(), self.turning, step.context);
+        step.way = speed * step.length();
+    }
+
+    /// Turns the particles that have an orientation.
+    pub(super) fn turn_particles(&mut self, step: &mut TimeStep) {
+        integration::turn(&mut self.state.particles, step.length(), step.context);
+    }
+
+    /// Makes the first half of the kick and the drift of clumps.
+    pub(super) fn move_clumps(&mut self, step: &mut TimeStep) {
+        let Some(clumps) = &self.clumps else { return };
+        let speed = clumps.kick_and_drift(&mut self.state, step.length(), step.context);
+        step.way = step.way.max(speed * step.length());
+    }
+
+    /// Moves boundaries and their nodes to where they stand at the end of the step, groups with their particles.
+    pub(super) fn move_boundaries(&mut self, step: &mut TimeStep) {
+        let Self { scene, bodies, state, workspace, .. } = self;
+        course::advance(scene, bodies, state, step.progress, &mut workspace.travels);
+        nodes::advance(scene, state, &step.progress, &mut workspace.travels);
+        rigid_body::place_groups(scene, bodies, state);
+    }
+
+    /// Deforms the periodic cell.
+    pub(super) fn deform_cell(&mut self, step: &mut TimeStep) {
+        let Some(cell) = &mut self.cell else { return };
+        match cell.advance(&mut self.state, &step.progress, step.context) {
+            Ok(strain) => step.strain = strain,
+            Err(error) => step.stop(error),
+        }
+    }
+
+    /// Looks for particles that a group went over.
+    pub(super) fn look_for_passed(&mut self, step: &mut TimeStep) {
+        step.note(self.check_groups(step.length()));
+    }
+
+    /// Makes the bonds that are due.
+    pub(super) fn make_due_bonds(&mut self, step: &mut TimeStep) {
+        self.make_bonds(&step.moment, step.context);
+    }
+}

@@ -1,0 +1,26 @@
+//! Time steps that heat does not allow, and how it limits an automatic one.
+
+use super::{GRAINS, capacity, conductance, row};
+use crate::support::start;
+
+/// Two spheres that overlap by 10 µm, with this time step; nothing moves.
+fn with_step(step: &str) -> String {
+    let list = row([(0.0, 400.0), (1.99e-3, 300.0)]);
+    let grains = GRAINS.replace("step = 1.0e-4\nallow_unstable = true", &format!("step = {step}"));
+    format!("{grains}[heat]\nfrozen = true\n[particles.all]\nmaterial = \"stone\"\nlist = [\n{list}]\n")
+}
+
+#[test]
+fn the_stable_step_is_that_of_the_body_that_exchanges_most() {
+    let simulation = start(&with_step("\"auto\""));
+    let expected = capacity() / conductance(1e-5);
+    let found = simulation.stable_step();
+    assert!((found / expected - 1.0).abs() < 1e-12, "{found:e} s found, {expected:e} s expected");
+}
+
+#[test]
+fn a_given_step_above_it_is_refused_with_what_limits_it() {
+    let scene = crate::support::scene(&with_step("1.0e3"));
+    let refused = cograin::simulation::Simulation::new(scene).map(drop).unwrap_err().to_string();
+    assert!(refused.contains("limited by the conduction of heat"), "{refused}");
+}
