@@ -211,7 +211,7 @@ fn dense(law: [&str; 2], more: &str) -> String {
 }
 
 #[test]
-fn work_is_mean_stress_times_strain_times_volume_and_the_books_close() {
+fn work_is_conjugate_stress_times_strain_times_volume_and_the_books_close() {
     for law in [SMOOTH, ROUGH] {
         let mut simulation = start(&dense(law, DRIVEN));
         let mut strain = [0.0; 6];
@@ -222,8 +222,9 @@ fn work_is_mean_stress_times_strain_times_volume_and_the_books_close() {
             (0..6).for_each(|component| simulation.set_strain(component, strain[component] + ways[component]));
             simulation.advance(7e-4).unwrap();
             let cell = simulation.state().cell.as_ref().unwrap();
-            let expected: f64 = (0..6).map(|k| cell.mean_stress[k] * (cell.strain[k] - strain[k]) * volume).sum();
-            let scale: f64 = (0..6).map(|k| (cell.mean_stress[k] * (cell.strain[k] - strain[k]) * volume).abs()).sum();
+            let expected: f64 = (0..6).map(|k| cell.conjugate_stress[k] * (cell.strain[k] - strain[k]) * volume).sum();
+            let scale: f64 =
+                (0..6).map(|k| (cell.conjugate_stress[k] * (cell.strain[k] - strain[k]) * volume).abs()).sum();
             assert!((cell.work - before - expected).abs() < 1e-12 * scale, "{} {expected}", cell.work - before);
             strain = cell.strain;
         }
@@ -232,6 +233,55 @@ fn work_is_mean_stress_times_strain_times_volume_and_the_books_close() {
         assert!(residual.abs() < 1e-12 * ledger.turnover, "{residual} of {}", ledger.turnover);
         let momentum = momentum(&simulation);
         assert!(momentum.iter().all(|part| part.abs() < 1e-12), "{momentum:?}");
+    }
+}
+
+/// Mean Cauchy stress and conjugate stress over 70 time steps of a shear from 0.4 to 0.41, and the mean of what the stress is at their ends.
+fn means_of_a_shear(law: [&str; 2]) -> [[f64; 6]; 3] {
+    const STEPS: u32 = 70;
+    let mut simulation = start(&dense(law, DRIVEN));
+    simulation.set_strain(2, -0.02);
+    simulation.set_strain(4, 0.4);
+    simulation.advance(0.02).unwrap();
+    let begun = simulation.state().clone();
+    simulation.set_strain(4, 0.41);
+    simulation.advance(7e-4).unwrap();
+    let cell = simulation.state().cell.as_ref().unwrap();
+    let (whole, conjugate) = (cell.mean_stress, cell.conjugate_stress);
+    simulation.restore(&begun).unwrap();
+    let (mut mean, mut before) = ([0.0; 6], simulation.cell_stress());
+    for step in 1..=STEPS {
+        simulation.set_strain(4, 0.4 + 0.01 * f64::from(step) / f64::from(STEPS));
+        simulation.advance(1e-5).unwrap();
+        let after = simulation.cell_stress();
+        (0..6).for_each(|k| mean[k] += 0.5 * (before[k] + after[k]) / f64::from(STEPS));
+        before = after;
+    }
+    [whole, conjugate, mean]
+}
+
+#[test]
+fn mean_stress_is_the_mean_of_the_cauchy_stress() {
+    for law in [SMOOTH, ROUGH] {
+        let [whole, conjugate, mean] = means_of_a_shear(law);
+        let largest = mean.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+        for (whole, mean) in whole.into_iter().zip(mean) {
+            // Velocities at the ends of time steps stand for those at their middle.
+            assert!((whole - mean).abs() < 1e-3 * largest, "{whole} {mean}");
+        }
+        assert!((whole[2] - conjugate[2]).abs() > 0.05 * largest, "{} {}", whole[2], conjugate[2]);
+    }
+}
+
+#[test]
+fn stress_is_conjugate_to_the_strains_of_sheared_edges_by_their_shear() {
+    // Without friction the stress is symmetric at each moment; in a shear the volume stays.
+    let [whole, conjugate, _] = means_of_a_shear(SMOOTH);
+    let gamma = 0.405;
+    let expected = [whole[0] - gamma * whole[4], whole[2] + gamma * whole[4], whole[4]];
+    let largest = whole.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    for (found, expected) in [conjugate[0], conjugate[2], conjugate[4]].into_iter().zip(expected) {
+        assert!((found - expected).abs() < 2e-3 * largest, "{found} {expected}");
     }
 }
 
@@ -565,6 +615,79 @@ fn a_stress_of_zero_is_reached_where_it_is_small_beside_the_others() {
     assert!(!told.iter().any(|remark| remark.starts_with("[cell] servo: ")), "{told:?}");
 }
 
+/// Grains between sides that are held at 100 kPa, in a cell that is driven along z.
+fn triaxial(more: &str) -> Simulation {
+    let text = scene(ROUGH[0], "restitution = 0.5\nfriction = 0.5", &cell(cube(0.0116), ""));
+    let text = text.replace("step = 1e-5\n", more).replace("youngs_modulus = 1e7", "youngs_modulus = 3e8");
+    let side = "{ stress = -1e5, max_rate = 20.0 }";
+    start(
+        &(text
+            + &format!(
+                "motion = {{ driven = [\"zz\"], servo = {{ xx = {side}, yy = {side} }} }}\n\
+                 [particles.sand]\nmaterial = \"glass\"\npacking = {{ solid_fraction = 0.58, radius = [0.8e-3, 1.2e-3] }}\n"
+            )),
+    )
+}
+
+#[test]
+fn a_servo_holds_its_stress_while_the_cell_is_driven() {
+    // An inertial number γ̇ d √(ρ/p) of 1e-3.
+    let rate = 1e-3 / 2e-3 * (1e5_f64 / 2500.0).sqrt();
+    let (mut simulation, interval) = (triaxial(""), 0.002 / rate);
+    let mut sum = [0.0; 2];
+    for step in 1..=40 {
+        simulation.set_strain(2, -0.002 * f64::from(step));
+        simulation.advance(interval).unwrap();
+        let cell = simulation.state().cell.as_ref().unwrap();
+        if step > 20 {
+            (0..2).for_each(|k| sum[k] += cell.mean_stress[k] / 20.0);
+        }
+    }
+    assert_near(&sum, &[-1e5; 2], 2e-3, "stress");
+    let interface = cograin::interface::Interface::of(simulation.scene());
+    let found = interface.value(&simulation, interface.find("cell.servo_error.yy").unwrap());
+    let expected = -1e5 - simulation.cell_stress()[1];
+    assert_eq!(found, cograin::interface::Value::Real(expected));
+}
+
+#[test]
+fn a_servo_goes_on_with_the_same_bits_from_a_saved_state_and_for_any_threads() {
+    let run = |threads: usize, kept: bool| {
+        let more = format!("threads = {threads}\n");
+        let mut simulation = triaxial(&more);
+        for step in 1..=6 {
+            simulation.set_strain(2, -0.002 * f64::from(step));
+            simulation.advance(4e-4).unwrap();
+            if kept && step == 3 {
+                let state = simulation.state().clone();
+                simulation = triaxial(&more);
+                simulation.restore(&state).unwrap();
+            }
+        }
+        assert!(simulation.state().cell.as_ref().unwrap().held_rate[0] != 0.0);
+        simulation.state().clone()
+    };
+    let first = run(1, false);
+    assert!(run(2, false) == first && run(1, true) == first);
+}
+
+#[test]
+fn servos_hold_the_pressure_of_a_gas() {
+    let each = ["xx", "yy", "zz"].map(|axis| format!("{axis} = {{ stress = -200.0, max_rate = 5.0 }}")).join(", ");
+    let [law, pair] = SMOOTH;
+    let text = scene(
+        law,
+        pair,
+        &(spheres(&gas(125, 0.1, 2.0)) + &cell(cube(0.1), &format!("motion = {{ servo = {{ {each} }} }}"))),
+    );
+    let mut simulation = start(&text.replace("step = 1e-5\n", ""));
+    simulation.advance(0.5).unwrap();
+    simulation.advance(1.0).unwrap();
+    let cell = simulation.state().cell.as_ref().unwrap();
+    // It fluctuates with the few collisions.
+    assert_near(&cell.mean_stress[..3], &[-200.0; 3], 0.03, "pressure");
+}
+
 #[test]
 fn a_stress_that_a_servo_does_not_reach_is_remarked() {
     let remarked = |stress: &str| {
@@ -791,12 +914,19 @@ fn variables_of_a_cell_are_its_inputs_and_what_it_answers() {
     };
     assert_eq!(names(false), ["cell.strain.xx", "cell.shear", "cell.target_stress.yy"]);
     let outputs = names(true);
-    for name in
-        ["cell.strain.yy", "cell.strain.zz", "cell.stress.xz", "cell.mean_stress.yz", "cell.work", "cell.volume"]
-    {
+    for name in [
+        "cell.strain.yy",
+        "cell.strain.zz",
+        "cell.stress.xz",
+        "cell.mean_stress.yz",
+        "cell.conjugate_stress.xy",
+        "cell.servo_error.yy",
+        "cell.work",
+        "cell.volume",
+    ] {
         assert!(outputs.iter().any(|output| output == name), "{name} is missing in {outputs:?}");
     }
-    assert_eq!(outputs.len(), 4 + 6 + 6 + 6 + 5);
+    assert_eq!(outputs.len(), 4 + 6 + 1 + 6 + 6 + 6 + 5);
 }
 
 #[test]

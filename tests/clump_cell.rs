@@ -230,7 +230,7 @@ const COURSE: [[f64; 6]; 3] = [
 ];
 
 #[test]
-fn work_is_mean_stress_times_strain_times_volume_and_the_books_close() {
+fn work_is_conjugate_stress_times_strain_times_volume_and_the_books_close() {
     let mut simulation = start(&dense(ROUGH, "", [0.0; 3], 1));
     let mut before = [0.0; 6];
     for strains in COURSE {
@@ -240,7 +240,7 @@ fn work_is_mean_stress_times_strain_times_volume_and_the_books_close() {
             let (work, volume) = (simulation.state().cell.as_ref().unwrap().work, simulation.cell_volume());
             strain(&mut simulation, &STRAINS.into_iter().zip(to).collect::<Vec<_>>(), 2e-3);
             let cell = simulation.state().cell.as_ref().unwrap();
-            let parts: [f64; 6] = std::array::from_fn(|k| cell.mean_stress[k] * (to[k] - from[k]) * volume);
+            let parts: [f64; 6] = std::array::from_fn(|k| cell.conjugate_stress[k] * (to[k] - from[k]) * volume);
             let (expected, size) = (parts.iter().sum::<f64>(), parts.iter().map(|part| part.abs()).sum::<f64>());
             assert!((cell.work - work - expected).abs() <= 1e-11 * size, "{} J, {expected} J", cell.work - work);
         }

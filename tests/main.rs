@@ -19,6 +19,7 @@ mod clump_exchange;
 mod clumps;
 mod coefficients;
 mod columns;
+mod deepest;
 mod derivatives;
 mod every_law;
 mod every_surface;

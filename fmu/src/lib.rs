@@ -202,7 +202,8 @@ pub extern "C" fn fmi2ExitInitializationMode(component: Component) -> Status {
 /// `fmi2Terminate`
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2Terminate(component: Component) -> Status {
-    call(component, &calls::TERMINATE, |instance, _| {
+    call(component, &calls::TERMINATE, |instance, logger| {
+        instance.remarks().iter().for_each(|remark| logger.warned("fmi2Terminate", remark));
         instance.terminate();
         Ok(())
     })

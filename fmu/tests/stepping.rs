@@ -223,3 +223,19 @@ fn a_unit_that_begins_in_a_state_counts_from_there_whatever_is_set() {
         }
     }
 }
+
+#[test]
+fn termination_tells_of_a_servo_that_missed_its_stress() {
+    let text = "[run]\nend = 1.0\n[material.g]\ndensity = 2500.0\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\n[pair.g.g]\nrestitution = 0.5\n\
+                friction = 0.3\n[contact.c.normal.hertz]\n[particles.p]\nmaterial = \"g\"\nlist = [{ position = [0.5, 0.5, 0.5], radius = 0.1 }]\n\
+                [cell]\nedges = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\n\
+                motion = { servo = { zz = { stress = -1e3, max_rate = 0.1 } } }\n";
+    let source = Source { name: "scene.toml".to_owned(), text: text.to_owned(), files: Default::default() };
+    let unit = Unpacked::of(&source, "servo");
+    let host = Host::started(&unit);
+    assert_eq!(host.step(0.0, 1.0e-2), Status::Ok);
+    assert_eq!(fmi2Terminate(host.component), Status::Ok);
+    let (status, category, said) = host.heard().pop().unwrap();
+    assert_eq!((status, category.as_str()), (Status::Warning, "logStatusWarning"));
+    assert!(said.starts_with("fmi2Terminate: [cell] servo: zz has ") && said.ends_with("to be -1.0000e3 Pa"), "{said}");
+}

@@ -70,6 +70,12 @@ def test_names_of_every_kind_tell_their_units():
         "pair.overlap": "m",
         "overlap.max": "1",
         "energy.lost.sliding": "J",
+        "lid.stiffness.z": "N/m",
+        "cell.stiffness.xx.xx": "Pa",
+        "lid.servo_error.z": "N",
+        "cell.servo_error.xx": "Pa",
+        "cell.conjugate_stress.xz": "Pa",
+        "heap.granular_temperature": "m2/s2",
     }.items():
         assert unit_of(name) == unit, name
 

@@ -118,8 +118,7 @@ def test_a_free_top_follows_its_closed_form_in_second_order_and_loses_nothing():
     )
     errors = []
     for length in (2e-2, 1e-2):
-        body = RigidBody(3.0, [across, across, along])
-        body.place(velocity=[1.0, 2.0, 3.0], angular_velocity=spin)
+        body = RigidBody(3.0, [across, across, along], velocity=[1.0, 2.0, 3.0], angular_velocity=spin)
         energy = body.energy
         march(body, lambda _: np.zeros(6), length, round(end / length))
         errors.append((Rotation.from_rotvec(body.rotation) * exact.inv()).magnitude())
@@ -136,6 +135,22 @@ def test_a_rotation_counts_whole_turns():
     march(body, lambda _: np.zeros(6), 0.1, 200)
     assert body.rotation == pytest.approx([0.0, 0.0, 40.0])
     assert body.displacement[3:] == pytest.approx([0.0, 0.0, 40.0])
+
+
+def test_a_body_starts_with_the_velocities_that_it_is_given():
+    about = {"centre": [0.1, 0.0, 0.0], "at": [[0.0, 0.2, 0.0]]}
+    given = {"velocity": [1.0, 2.0, 3.0], "angular_velocity": [0.3, 0.0, -0.2]}
+    started, placed = RigidBody(2.0, [1.0, 2.0, 3.0], **about, **given), RigidBody(2.0, [1.0, 2.0, 3.0], **about)
+    placed.place(**given)
+    assert started.velocity == pytest.approx(given["velocity"])
+    assert started.angular_velocity == pytest.approx(given["angular_velocity"])
+    assert [body.energy for body in (started, placed)] == [started.energy] * 2
+    step = Step(0.0, 0.1, 0.1)
+    assert np.array_equal(started.predict(np.zeros(6), step), placed.predict(np.zeros(6), step))
+    with pytest.raises(ValueError, match="a body on a pivot only turns"):
+        RigidBody(1.0, 1.0, pivot=[0.0, 0.0, 0.0], velocity=[1.0, 0.0, 0.0])
+    with pytest.raises(ValueError, match="angular_velocity: expected"):
+        RigidBody(1.0, 1.0, angular_velocity=[1.0, float("nan"), 0.0])
 
 
 def test_a_body_on_a_pivot_swings_as_a_pendulum_does():

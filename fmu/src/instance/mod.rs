@@ -308,6 +308,11 @@ impl Instance {
         Ok(())
     }
 
+    /// What is legal but risky in how it went.
+    pub(crate) fn remarks(&self) -> Vec<String> {
+        cograin::run::course(&self.simulation)
+    }
+
     /// `fmi2Terminate`
     pub(crate) fn terminate(&mut self) {
         self.frames.end(&self.simulation);

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! with forces f of contacts and bonds over the vectors r between their bodies, S₀ and S₁ before and after it. It is linear in
-//! the changes of the strains: what belongs to each is its mean stress times the volume.
+//! the changes of the strains: what belongs to each is its conjugate stress times the volume.
 
 mod deformation;
 pub(crate) mod images;
@@ -31,6 +31,7 @@ use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::{CellMotion, ClumpShape, Scene};
 use deformation::{Change, product, times};
 use images::Images;
+use servo::Felt;
 
 /// Strain in one time step that nobody can mean.
 const LARGEST_STEP: f64 = 0.05;
@@ -106,7 +107,7 @@ impl Cell {
             }
         }
         cell.volume_before = self.images.lattice(cell).volume();
-        cell.action = Strains::default();
+        (cell.action, cell.stress_sum) = (Strains::default(), Strains::default());
         for (component, motion) in self.motion.iter().enumerate() {
             let is_driven = matches!(motion, CellMotion::Driven);
             cell.start[component] = if is_driven { cell.strain[component] } else { cell.target[component] };
@@ -127,18 +128,20 @@ impl Cell {
         let Some(cell) = &mut state.cell else { return };
         if elapsed > 0.0 {
             let per = elapsed * cell.volume_before;
-            cell.mean_stress = cell.action.map(|action| action / per);
+            cell.conjugate_stress = cell.action.map(|action| action / per);
+            cell.mean_stress = cell.stress_sum.map(|sum| sum / elapsed);
         }
     }
 
-    /// Lets the mean stress begin with the present one.
+    /// Lets the mean stresses begin with the present ones.
     pub(crate) fn begin_mean(&self, state: &mut State, context: &Context) {
         let Some(mut cell) = state.cell.take() else { return };
         let change = Change::between(&cell.strain, &cell.strain);
         (cell.kinetic, _) = carry(state, &cell.origin, &change, 0.0, context);
         let volume = self.images.lattice(&cell).volume();
         let load = |part: &Square| -(product(&cell.kinetic, part) + product(&cell.virial, part));
-        cell.mean_stress = std::array::from_fn(|component| load(&change.of_start[component]) / volume);
+        cell.conjugate_stress = std::array::from_fn(|component| load(&change.of_start[component]) / volume);
+        cell.mean_stress = std::array::from_fn(|component| stress::of(&cell.virial, &cell.kinetic, component) / volume);
         state.cell = Some(cell);
     }
 
@@ -176,8 +179,9 @@ impl Cell {
         images::place(&self.images.lattice(cell), cell, particles);
     }
 
-    /// The strains at the end of the present time step.
-    fn strains(&self, cell: &CellState, progress: &Progress, volume: f64) -> Strains {
+    /// The strains at the end of the present time step. Servos go on.
+    fn strains(&self, cell: &mut CellState, progress: &Progress) -> Strains {
+        let volume = self.images.lattice(cell).volume();
         let share = if progress.is_last() { 1.0 } else { progress.share(InputCourse::Ramp) };
         std::array::from_fn(|component| {
             let along = |from: f64, to: f64| if share < 1.0 { from + (to - from) * share } else { to };
@@ -187,7 +191,13 @@ impl Cell {
                 CellMotion::Driven => along(from, to),
                 CellMotion::Servo(servo) => {
                     let stress = stress::of(&cell.virial, &cell.kinetic, component) / volume;
-                    let rate = servo::rate(servo, [stress, along(from, to)], cell.stiffness[component], progress.step);
+                    let felt = Felt {
+                        error: along(from, to) - stress,
+                        stiffness: cell.stiffness[component]
+                            + stress::kinetic_stiffness(&cell.kinetic, component) / volume,
+                        inertia: cell.inertia,
+                    };
+                    let rate = servo::rate(servo, felt, &mut cell.held_rate[component], progress.step);
                     cell.strain[component] + progress.step * rate
                 }
             }
@@ -219,18 +229,19 @@ impl Cell {
         context: &Context,
     ) -> Result<f64, RunError> {
         let step = progress.step;
-        let after = self.strains(cell, progress, self.images.lattice(cell).volume());
+        let after = self.strains(cell, progress);
         let change = Change::between(&cell.strain, &after);
         let largest = change.strain.iter().map(|change| change.abs()).sum::<f64>();
         if largest > LARGEST_STEP || !largest.is_finite() {
             return Err(RunError::CellStep { strain: largest, step, time: state.clock.time });
         }
         let (kinetic, impulse) = carry(state, &cell.origin, &change, step, context);
+        cell.kinetic = kinetic;
+        self.book_stress(cell, step);
         (0..3).for_each(|axis| cell.impulse[axis] += impulse[axis]);
         cell.strain = after;
         cell.edges = deformation::edges(&cell.reference, &after);
         cell.gradient = if change.is_none() { Square::default() } else { change.gradient(&after, step) };
-        cell.kinetic = kinetic;
         let work = book(cell, &change, (-1.0, &kinetic, &change.of_start), step);
         let virial = cell.virial;
         book(cell, &change, (-0.5, &virial, &change.of_start), step);
@@ -297,6 +308,15 @@ impl Cell {
         let (Some(cell), Some(change)) = (&mut state.cell, self.change.take()) else { return };
         let virial = cell.virial;
         book(cell, &change, (-0.5, &virial, &change.of_end), step);
+        self.book_stress(cell, step);
+    }
+
+    /// Books the Cauchy stress at one end of a time step of this length \[s\], with the velocities at its middle.
+    fn book_stress(&self, cell: &mut CellState, step: f64) {
+        let per_volume = 0.5 * step / self.images.lattice(cell).volume();
+        for component in 0..6 {
+            cell.stress_sum[component] += per_volume * stress::of(&cell.virial, &cell.kinetic, component);
+        }
     }
 
     /// The largest distance of a surface from the point that the cell carries along \[m\].

@@ -14,6 +14,14 @@ pub(super) fn of(virial: &Square, kinetic: &Square, component: usize) -> f64 {
     -0.5 * (virial[row][column] + virial[column][row] + kinetic[row][column] + kinetic[column][row])
 }
 
+/// How stiff the velocities are to a component of the strain with which they go, times the volume \[J\]: they change by A⁻¹.
+pub(super) fn kinetic_stiffness(kinetic: &Square, component: usize) -> f64 {
+    let [row, column] = STRAIN_PLACES[component];
+    // Along an axis the square of the velocity changes twice, and the volume once.
+    let times = if row == column { 3.0 } else { 1.0 };
+    times * kinetic[column][column]
+}
+
 /// Contacts between particles, as far as they tell the structure of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Fabric {
@@ -68,7 +76,8 @@ impl Cell {
         1.0 - solid / self.volume(state)
     }
 
-    /// Finds how stiff the network of these passes is to each component of the strain, where every particle goes with the cell.
+    /// Finds how stiff the network of these passes is to each component of the strain, where every particle goes with the cell, and how
+    /// heavy the particles are.
     pub(crate) fn find_stiffness(&self, state: &mut State, passes: &[Box<dyn Pass>]) {
         let mut sums = Strains::default();
         for pass in passes {
@@ -89,10 +98,21 @@ impl Cell {
                 },
             );
         }
-        let volume = self.volume(state);
+        let (volume, inertia) = (self.volume(state), self.inertia(state));
         if let Some(cell) = &mut state.cell {
             cell.stiffness = sums.map(|sum| sum / volume);
+            cell.inertia = inertia;
         }
+    }
+
+    /// Mean mass of the particles and clumps over the third root of the volume for each; 0 where there are none \[kg/m\].
+    fn inertia(&self, state: &State) -> f64 {
+        let particles = &state.particles;
+        let loose = particles.slots().filter(|&slot| state.clump(slot).is_none()).map(|slot| &particles.velocity[slot]);
+        let (sum, count) =
+            loose.chain(&state.clumps.velocity).fold((0.0, 0_u32), |(sum, count), row| (sum + row[3], count + 1));
+        let each = f64::from(count.max(1));
+        sum / each / libm::cbrt(self.volume(state) / each)
     }
 
     /// Whether a servo moves any component.

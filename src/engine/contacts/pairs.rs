@@ -2,7 +2,7 @@
 
 use crate::base::lanes::{Lane, Shared};
 use crate::base::memory::prefetch;
-use crate::base::number::{add, subtract};
+use crate::base::number::{Number, add, subtract};
 use crate::engine::contacts::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching};
 use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::state::Row;
@@ -78,6 +78,11 @@ impl Bodies for Pairs<'_> {
             ([N::load_rows(v, first), N::load_rows(v, second)], spins)
         };
         SpherePair::from_found(found).meet_at(roots, velocities, spins, N::zero())
+    }
+
+    #[inline(always)]
+    fn smaller_radius<N: Number>([.., radius_i, radius_j]: [N; FOUND], _effective: N) -> N {
+        radius_i.min(radius_j)
     }
 
     fn row(&self, table: &CoefficientTable, first: u32, second: u32) -> u32 {

@@ -11,12 +11,12 @@ use super::records::{ContactRecord, Motion};
 use crate::base::lanes::Shared;
 use crate::base::threads::Context;
 use crate::engine::contacts::batches::SpherePair;
-use crate::engine::contacts::batches::{BatchLaw, Batches, ContactGeometry, Entries, Lost};
+use crate::engine::contacts::batches::{BatchLaw, Batches, ContactGeometry, DeepestSearch, Entries, Lost};
 use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};
 use crate::engine::contacts::encounters::{self, Encounters};
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
-use crate::engine::state::{ContactList, Particles, State, StateFault};
+use crate::engine::state::{ContactList, Deepest, Named, Particles, State, StateFault};
 use crate::laws::contact::{Contact, Law};
 use crate::scene::Scene;
 use std::sync::{Mutex, PoisonError};
@@ -37,7 +37,13 @@ pub(crate) struct ContactPass {
 
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
-        self.evaluate(state, context);
+        let deepest = DeepestSearch::beyond(state.deepest.overlap);
+        self.evaluate(state, context, &deepest);
+        if let Some(found) = deepest.found() {
+            let [particle, partner] = [found.first, found.second].map(|slot| Named::at(&state.particles, slot));
+            let (overlap, time) = (found.overlap, state.clock.time);
+            state.deepest.take(Deepest { overlap, time, particle, partner: Some(partner), boundary: None });
+        }
         Ok(())
     }
 
@@ -115,7 +121,7 @@ impl Pass for ContactPass {
 
 impl ContactPass {
     /// Evaluates the law on all contacts.
-    fn evaluate(&self, state: &mut State, context: &Context) {
+    fn evaluate(&self, state: &mut State, context: &Context, deepest: &DeepestSearch) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
         let heat = state.heat.as_mut().map_or(&mut [][..], |heat| &mut heat.of_losses);
@@ -137,6 +143,7 @@ impl ContactPass {
             uniform: self.table.uniform(),
             step: context.step,
             width: context.width,
+            deepest,
         };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
         let slabs = ends.len().saturating_sub(1);

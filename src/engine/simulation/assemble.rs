@@ -14,8 +14,8 @@ use crate::engine::contacts::surfaces::SurfacePass;
 use crate::engine::flow;
 use crate::engine::neighbours;
 use crate::engine::state::{
-    BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Nodes, Pace, Particles, State,
-    WallContacts,
+    BondList, BoundaryState, Clock, ContactList, Deepest, Foresight, Ledger, Losses, Neighbours, Nodes, Pace,
+    Particles, State, WallContacts,
 };
 use crate::engine::transfer;
 use crate::scene::{Boundary, Particle, Scene};
@@ -36,6 +36,7 @@ pub(super) fn state(scene: &Scene) -> State {
         tuned: scene.tunables().map(|parameter| parameter.value).collect(),
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
+        deepest: Deepest::default(),
         bonds: vec![BondList::default(); scene.bonds.len()],
         breaks: Vec::new(),
         boundaries: scene.boundaries.iter().map(|it| boundary(scene, it)).collect(),

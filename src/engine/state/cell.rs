@@ -36,6 +36,10 @@ pub struct CellState {
     pub target_rate: Strains,
     /// How stiff the cell is to each component, as it was found last; 0 where nothing resists \[Pa\].
     pub stiffness: Strains,
+    /// Mean mass of the particles over the third root of the volume for each, as it was found last \[kg/m\].
+    pub inertia: f64,
+    /// The rates that servos hold beside what they answer to a missing stress \[1/s\].
+    pub held_rate: Strains,
     /// By how many edges each of the scene's particles has been brought back into the cell.
     #[serde(with = "plain")]
     pub edges_away: Vec<[i64; 3]>,
@@ -54,10 +58,14 @@ pub struct CellState {
     pub kinetic: Square,
     /// Sum over time steps of this communication step: work for each unit of strain, times the time step \[J s\].
     pub action: Strains,
+    /// Sum over time steps of this communication step: Cauchy stress times the time step \[Pa s\].
+    pub stress_sum: Strains,
     /// Volume when the present communication step began \[m³\].
     pub volume_before: f64,
-    /// Mean stress over the last communication step, for which work is stress times strain times volume \[Pa\].
+    /// Mean of the Cauchy stress over the last communication step \[Pa\].
     pub mean_stress: Strains,
+    /// Mean over the last communication step of what is conjugate to the strains: work over strain and volume at its start \[Pa\].
+    pub conjugate_stress: Strains,
     /// Work done on the particles since time 0 \[J\].
     pub work: f64,
     /// Impulse of the streaming motion on the particles since time 0 \[N s\].
@@ -76,6 +84,8 @@ clone_in_place!(CellState {
     target,
     target_rate,
     stiffness,
+    inertia,
+    held_rate,
     edges_away,
     images,
     originals,
@@ -83,8 +93,10 @@ clone_in_place!(CellState {
     virial,
     kinetic,
     action,
+    stress_sum,
     volume_before,
     mean_stress,
+    conjugate_stress,
     work,
     impulse
 });
@@ -97,7 +109,8 @@ impl CellState {
 
     /// Takes over where another has come to, as the state without strain.
     pub(crate) fn stay(&mut self, ended: Self) {
-        (self.reference, self.edges, self.stiffness) = (ended.edges, ended.edges, ended.stiffness);
+        (self.reference, self.edges) = (ended.edges, ended.edges);
+        (self.stiffness, self.inertia) = (ended.stiffness, ended.inertia);
         (self.edges_away, self.images) = (ended.edges_away, ended.images);
         (self.originals, self.displaced) = (ended.originals, ended.displaced);
     }

@@ -179,6 +179,9 @@ impl State {
         self.nodes.iter().try_for_each(Nodes::check)?;
         self.ledger.iter().try_for_each(|ledger| ledger.check(self.boundaries.len(), self.clumps.len()))?;
         self.losses.iter().try_for_each(Losses::check)?;
+        all_finite(&[self.deepest.overlap, self.deepest.time], "deepest")?;
+        let is_there = self.deepest.boundary.is_none_or(|boundary| (boundary as usize) < self.boundaries.len());
+        demand(is_there, "deepest", 0, "a boundary of the scene")?;
         all_finite(&self.damping_force, "damping_force")?;
         all_finite(&self.damping_impulse, "damping_impulse")?;
         let sound = self.exchange.as_ref().is_none_or(Exchange::is_sound);
@@ -382,9 +385,11 @@ impl CellState {
         all_finite(squares.as_flattened().as_flattened(), "cell")?;
         let sixes = [self.strain, self.rate, self.start, self.end, self.target, self.target_rate];
         all_finite(sixes.as_flattened(), "cell")?;
-        all_finite([self.stiffness, self.action, self.mean_stress].as_flattened(), "cell")?;
+        let means = [self.stress_sum, self.mean_stress, self.conjugate_stress];
+        all_finite(means.as_flattened(), "cell")?;
+        all_finite([self.stiffness, self.held_rate, self.action].as_flattened(), "cell")?;
         all_finite(&self.impulse, "cell")?;
-        all_finite(&[self.volume_before, self.work], "cell")?;
+        all_finite(&[self.inertia, self.volume_before, self.work], "cell")?;
         let count = self.images.len();
         let columns = self.originals.len() == count && self.displaced.len() == count;
         demand(columns && count == particles.images(), "images", count, "an entry for each image")?;

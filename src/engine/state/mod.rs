@@ -10,6 +10,7 @@ mod check;
 pub mod clock;
 pub mod clumps;
 pub mod contacts;
+pub mod deepest;
 pub mod exchange;
 pub mod foresight;
 pub mod heat;
@@ -32,6 +33,7 @@ pub(crate) use check::demand;
 pub use clock::{Clock, Underway};
 pub use clumps::{ClumpRows, Clumps};
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
+pub use deepest::{Deepest, Named};
 pub use exchange::Exchange;
 pub use foresight::Foresight;
 pub use heat::Heat;
@@ -75,6 +77,8 @@ pub struct State {
     pub contacts: Vec<ContactList>,
     /// Near particles of each plane and their springs, a list for each plane and contact law that meet.
     pub walls: Vec<WallContacts>,
+    /// The deepest contact since time 0.
+    pub deepest: Deepest,
     /// Living bonds, a list for each bond law.
     pub bonds: Vec<BondList>,
     /// Bonds that broke since the present communication step began.
@@ -111,6 +115,7 @@ clone_in_place!(State {
     tuned,
     contacts,
     walls,
+    deepest,
     bonds,
     breaks,
     boundaries,
@@ -202,6 +207,7 @@ impl State {
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
     /// The caller sets the energies with which an energy book begins, and the mean loads.
     pub fn begin_counting(&mut self) {
+        self.deepest = Deepest::default();
         self.breaks.clear();
         self.damping_impulse = [0.0; 3];
         self.boundaries.iter_mut().for_each(BoundaryState::begin_counting);

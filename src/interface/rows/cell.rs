@@ -24,6 +24,11 @@ fn is_driven(scene: &Scene, at: At) -> bool {
     motion(scene, at) == Some(CellMotion::Driven) && !is_endless(scene, at)
 }
 
+/// Whether it reaches a stress.
+fn is_served(scene: &Scene, at: At) -> bool {
+    motion(scene, at).is_some_and(|motion| motion.servo().is_some())
+}
+
 /// Whether it is the shear without end.
 fn is_endless(scene: &Scene, at: At) -> bool {
     scene.cell.as_ref().is_some_and(|cell| cell.shear == Some(at.axis()))
@@ -41,7 +46,7 @@ fn tangent(at: At) -> [usize; 2] {
 }
 
 /// Variables of the periodic cell, inputs first.
-pub(super) static OF_CELLS: [Row; 13] = [
+pub(super) static OF_CELLS: [Row; 15] = [
     Row {
         name: "cell.strain",
         description: "strain {axis} of the cell since the scene's time 0, to be reached at the end of the communication step at a \
@@ -66,7 +71,7 @@ pub(super) static OF_CELLS: [Row; 13] = [
         description: "stress {axis} of the cell that its servo is to reach, tension positive; held in a communication step, or \
                       changing at its rate",
         quantity: Quantity::Pressure,
-        exists: |scene, at| motion(scene, at).is_some_and(|motion| motion.servo().is_some()),
+        exists: is_served,
         write: GIVEN,
         read: |now, at| Value::Real(now.cell(|cell| cell.target[at.axis()])),
         ..OF_COMPONENT
@@ -87,11 +92,29 @@ pub(super) static OF_CELLS: [Row; 13] = [
         ..OF_COMPONENT
     },
     Row {
+        name: "cell.servo_error",
+        description: "what the stress {axis} of the cell lacks of its target",
+        quantity: Quantity::Pressure,
+        exists: is_served,
+        read: |now, at| {
+            let stress = now.findings.cell_stress(now.simulation)[at.axis()];
+            Value::Real(now.cell(|cell| cell.target[at.axis()]) - stress)
+        },
+        ..OF_COMPONENT
+    },
+    Row {
         name: "cell.mean_stress",
-        description: "mean over the last communication step of the stress that belongs to strain {axis}: times its change and the \
-                      volume at the start it is the work of a driven component",
+        description: "mean of the Cauchy stress {axis} of the cell over the last communication step",
         quantity: Quantity::Pressure,
         read: |now, at| Value::Real(now.cell(|cell| cell.mean_stress[at.axis()])),
+        ..OF_COMPONENT
+    },
+    Row {
+        name: "cell.conjugate_stress",
+        description: "mean over the last communication step of the stress that is conjugate to strain {axis}: times the change of a \
+                      driven strain and the volume at the start it is the work",
+        quantity: Quantity::Pressure,
+        read: |now, at| Value::Real(now.cell(|cell| cell.conjugate_stress[at.axis()])),
         ..OF_COMPONENT
     },
     Row {

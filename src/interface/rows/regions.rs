@@ -1,6 +1,7 @@
 //! Variables of each region.
 
-use super::row::{COMPONENT_PLACES, Each, OUTPUT, Row};
+use super::row::{Each, OUTPUT, Row};
+use crate::base::geometry::lattice::STRAIN_PLACES;
 use crate::interface::{Quantity, Value};
 
 /// What most outputs of regions have in common.
@@ -14,7 +15,7 @@ pub(super) static OF_REGIONS: [Row; 7] = [
         description: "mean stress in {region}, component {axis}, tension positive: of contacts and bonds by the part of their \
                       branch inside, and of the velocities less their mean",
         quantity: Quantity::Pressure,
-        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.place(), COMPONENT_PLACES[at.axis()])),
+        read: |now, at| Value::Real(now.findings.stress(now.simulation, at.place(), STRAIN_PLACES[at.axis()])),
         ..OF_REGION
     },
     Row {

@@ -11,12 +11,6 @@ use crate::scene::Scene;
 /// Names of the axes in variables.
 pub(in crate::interface) const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Names of the components of a symmetric tensor in variables.
-pub(in crate::interface) const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "zx"];
-
-/// Row and column of each.
-pub(in crate::interface) const COMPONENT_PLACES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]];
-
 /// Names of the components of a tangent in variables: of the stress, of the strain.
 #[rustfmt::skip]
 const TANGENTS: [&str; 36] = [
@@ -68,8 +62,7 @@ impl Each {
     pub(super) fn names(self) -> &'static [&'static str] {
         match self {
             Self::Axis | Self::Node | Self::RegionAxis | Self::ProbeAxis => &AXES,
-            Self::Component => &COMPONENTS,
-            Self::Strain => &STRAINS,
+            Self::Component | Self::Strain => &STRAINS,
             Self::Tangent => &TANGENTS,
             Self::Shear => &[""; 6],
             Self::Scene

@@ -55,8 +55,6 @@ pub(crate) struct Meter {
     pub(super) contacts: usize,
     /// Time steps made at the last count.
     counted: u64,
-    /// Largest overlap over radius at any look.
-    pub(super) largest_overlap: f64,
     /// How long parts of communication steps are.
     pace: Pace,
 }
@@ -72,7 +70,6 @@ impl Meter {
             bond_steps: 0.0,
             contacts: simulation.contact_count(),
             counted: simulation.state().clock.steps,
-            largest_overlap: simulation.largest_overlap(),
             pace: Pace::default(),
         }
     }
@@ -90,18 +87,12 @@ impl Meter {
     }
 
     /// Counts the time steps since the last count.
-    fn count(&mut self, simulation: &Simulation) {
+    pub(crate) fn count(&mut self, simulation: &Simulation) {
         let (steps, contacts) = (simulation.state().clock.steps, simulation.contact_count());
         let made = (steps - self.counted) as f64;
         self.contact_steps += 0.5 * made * (self.contacts + contacts) as f64;
         self.bond_steps += made * intact_bonds(simulation) as f64;
         (self.counted, self.contacts) = (steps, contacts);
-    }
-
-    /// Counts what is left, and looks at the overlaps.
-    pub(crate) fn look(&mut self, simulation: &Simulation) {
-        self.count(simulation);
-        self.largest_overlap = self.largest_overlap.max(simulation.largest_overlap());
     }
 }
 

@@ -13,7 +13,7 @@ mod summary;
 
 pub use frame_writer::FrameWriter;
 pub use order::{EarlierResults, Progress, RunOrder, Start};
-pub use remarks::remarks;
+pub use remarks::{course, remarks};
 pub use settle::{SettleOrder, SettleProgress, SettleStart, Settled, settle};
 pub use summary::Summary;
 
@@ -263,7 +263,7 @@ impl<'a> Session<'a> {
     fn end(mut self, result: Result<(), Failure>) -> Result<Summary, Failure> {
         let result = result.and(self.writer.finish().map_err(Failure::from));
         let momentum = self.momentum.balance(&self.simulation);
-        self.meter.look(&self.simulation);
+        self.meter.count(&self.simulation);
         let mut summary =
             Summary::new(&self.order, &self.simulation, &self.meter, self.start, momentum, result.as_ref().err());
         summary.left_behind = self.left_behind;

@@ -1,5 +1,6 @@
 //! What is legal in a scene but risky: said once, by `check`, in `summary.json` and by the unit's logger.
 
+use super::summary::DeepestContact;
 use crate::base::geometry::lattice::STRAINS;
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
 use crate::engine::state::Clock;
@@ -42,8 +43,16 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(cracks(scene));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
-    remarks.extend(overlap(simulation));
     remarks.extend(falling(scene));
+    remarks.extend(course(simulation));
+    remarks
+}
+
+/// Those of them that follow from how a simulation went, not from its scene alone.
+pub fn course(simulation: &Simulation) -> Vec<String> {
+    let scene = simulation.scene();
+    let mut remarks = Vec::new();
+    remarks.extend(overlap(simulation));
     remarks.extend(full(scene, simulation));
     remarks.extend(missed(scene, simulation));
     remarks
@@ -398,9 +407,12 @@ fn friction(scene: &Scene) -> Vec<String> {
 
 /// On overlaps that contact laws are not made for.
 fn overlap(simulation: &Simulation) -> Option<String> {
-    let overlap = simulation.largest_overlap();
-    (overlap > DEEP_OVERLAP)
-        .then(|| format!("the largest overlap is {overlap:.3} of a radius; contact laws hold for small ones"))
+    let overlap = simulation.state().deepest.overlap;
+    let DeepestContact { time, between: [one, other] } =
+        DeepestContact::of(simulation).filter(|_| overlap > DEEP_OVERLAP)?;
+    Some(format!(
+        "the largest overlap is {overlap:.3} of a radius, of {one} and {other} at t = {time:e} s; contact laws hold for small ones"
+    ))
 }
 
 /// On particles that fall for ever.

@@ -6,8 +6,8 @@ use super::order::RunOrder;
 use super::remarks::remarks;
 use crate::base::words::{counted, plain};
 use crate::engine::simulation::Simulation;
-use crate::engine::state::Loss;
 use crate::engine::state::ledger::Source;
+use crate::engine::state::{Deepest, Loss, Named};
 use crate::output::results::Failure;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -95,6 +95,29 @@ pub struct LossBook {
     pub residual: f64,
 }
 
+/// The contact that was deepest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DeepestContact {
+    /// When \[s\].
+    pub time: f64,
+    /// Its two bodies, in words.
+    pub between: [String; 2],
+}
+
+impl DeepestContact {
+    /// That of a simulation, if anything touched.
+    pub(super) fn of(simulation: &Simulation) -> Option<Self> {
+        let Deepest { overlap, time, particle, partner, boundary } = simulation.state().deepest;
+        let number = |named: Named| named.number.unwrap_or_else(|| simulation.number(named.index));
+        let other = match boundary {
+            Some(boundary) => format!("[boundary.{}]", simulation.scene().boundaries[boundary as usize].name),
+            None => format!("particle {}", number(partner.unwrap_or(particle))),
+        };
+        let between = [format!("particle {}", number(particle)), other];
+        (overlap > 0.0).then_some(Self { time, between })
+    }
+}
+
 /// How a run went.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
@@ -120,8 +143,10 @@ pub struct Summary {
     pub threads: usize,
     /// Numbers of things.
     pub counts: Counts,
-    /// Largest overlap over the smaller radius at the ends of this session.
+    /// Largest overlap over the smaller radius of all time steps since time 0.
     pub largest_overlap: f64,
+    /// Which contact had it, and when; none where nothing touched.
+    pub deepest_contact: Option<DeepestContact>,
     /// Wall time of this session, output included \[s\].
     pub wall_time: f64,
     /// Wall time of its time steps alone \[s\].
@@ -194,7 +219,8 @@ impl Summary {
                 bonds_broken: state.bonds.iter().map(|list| list.broken).sum(),
                 neighbour_rebuilds: state.clock.rebuilds,
             },
-            largest_overlap: meter.largest_overlap,
+            largest_overlap: state.deepest.overlap,
+            deepest_contact: DeepestContact::of(simulation),
             wall_time: meter.begun.elapsed().as_secs_f64(),
             stepping_time: meter.stepping.as_secs_f64(),
             ns_per_contact_and_step: share(meter.contact_steps),

@@ -15,6 +15,7 @@
 //! A new kind of body needs an implementation of [`Bodies`]; its pass fills [`Batches`] and calls [`Batches::run`] on pieces
 //! of the list. Pieces that run at the same time must not write to the same body.
 
+mod deepest;
 mod law;
 mod lost;
 mod parting;
@@ -22,11 +23,13 @@ mod phases;
 mod whole_laws;
 
 use crate::base::lanes::{self, Lane, Width};
+use crate::base::number::Number;
 use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use crate::laws::contact::Needs;
 pub(crate) use crate::laws::contact::batch::{Buffer, ContactGeometry, Entries, FOUND, SpherePair, Touching};
 use crate::laws::contact::batch::{EntryEvaluation, Stage};
+pub(crate) use deepest::DeepestSearch;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
 use phases::{GeometryPhase, ScatterPhase, TouchPhase};
@@ -73,6 +76,11 @@ pub(crate) trait Bodies: Copy {
         found: [N; FOUND],
         roots: [N; 2],
     ) -> ContactGeometry<N>;
+
+    /// The radius of the smaller body, by what was found and the effective radius \[m\].
+    fn smaller_radius<N: Number>(_found: [N; FOUND], effective: N) -> N {
+        effective
+    }
 
     /// The weight of the normal force of each entry, and its share of friction, if they are not 1.
     fn weights(&self) -> Option<&[[f64; 2]]> {
@@ -131,6 +139,8 @@ pub(crate) struct Batches<'a, B> {
     pub step: f64,
     /// Lane width.
     pub width: Width,
+    /// Who looks for the deepest contact.
+    pub deepest: &'a DeepestSearch,
 }
 
 impl<B: Bodies> Batches<'_, B> {
@@ -194,12 +204,15 @@ impl<B: Bodies> Batches<'_, B> {
                 lanes::run(width, TouchPhase::<B, false, false> { work, chosen, to, next: &mut next, buffer, sum });
             }
             buffer.complete(next == to, B::FOUND);
-            self.meet(needs, buffer);
+            let is_suppressed = matches!(manner, Some(EntryEvaluation::Followed));
+            if self.meet(needs, buffer) && !is_suppressed {
+                self.deepest.look(&bodies, buffer);
+            }
             let stage = &mut self.stage(buffer);
             for run in runs {
                 run(width, stage);
             }
-            if !matches!(manner, Some(EntryEvaluation::Followed)) {
+            if !is_suppressed {
                 lanes::run(width, ScatterPhase { bodies, needs, buffer, sum });
                 if law.booked.warms() && !runs.is_empty() {
                     for (place, &heat) in buffer.heat().iter().enumerate() {
@@ -233,21 +246,32 @@ impl<B: Bodies> Batches<'_, B> {
         }
     }
 
-    /// Phase 2, and the rows of the table where they differ.
-    fn meet(&self, needs: Needs, buffer: &mut Buffer) {
-        let bodies = self.bodies;
+    /// Phase 2, and the rows of the table where they differ. Returns whether some entry is deeper than all before.
+    fn meet(&self, needs: Needs, buffer: &mut Buffer) -> bool {
+        let (bodies, so_far, mut deeper) = (self.bodies, self.deepest.so_far, 0);
+        let deeper_here = &mut deeper;
         if self.uniform.is_none() {
             for place in 0..buffer.ready.next_multiple_of(8) {
                 buffer.row[place] = bodies.row(self.table, buffer.first[place], buffer.second[place]);
             }
         }
         if !needs.torque {
-            lanes::run(self.width, GeometryPhase::<B, false, true> { bodies, needs, buffer });
+            lanes::run(
+                self.width,
+                GeometryPhase::<B, false, true> { bodies, needs, buffer, so_far, deeper: deeper_here },
+            );
         } else if needs.rare() {
-            lanes::run(self.width, GeometryPhase::<B, true, true> { bodies, needs, buffer });
+            lanes::run(
+                self.width,
+                GeometryPhase::<B, true, true> { bodies, needs, buffer, so_far, deeper: deeper_here },
+            );
         } else {
-            lanes::run(self.width, GeometryPhase::<B, true, false> { bodies, needs, buffer });
+            lanes::run(
+                self.width,
+                GeometryPhase::<B, true, false> { bodies, needs, buffer, so_far, deeper: deeper_here },
+            );
         }
+        deeper != 0
     }
 }
 

@@ -226,12 +226,17 @@ pub(crate) struct GeometryPhase<'b, B, const TORQUE: bool, const RARE: bool> {
     pub(crate) needs: Needs,
     /// The batch.
     pub(crate) buffer: &'b mut Buffer,
+    /// The largest overlap over the smaller radius so far.
+    pub(crate) so_far: f64,
+    /// Bits where one is larger.
+    pub(crate) deeper: &'b mut u32,
 }
 
 impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for GeometryPhase<'_, B, TORQUE, RARE> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { bodies, mut needs, buffer } = self;
+        let Self { bodies, mut needs, buffer, so_far, deeper } = self;
+        let so_far = N::splat(so_far);
         if !RARE {
             needs = needs.without_rare();
         }
@@ -245,6 +250,8 @@ impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for GeometryPhase<'
                 let found = buffer.found::<N>(done, B::FOUND);
                 let next = B::roots(&buffer.found::<N>(done + N::WIDTH, B::FOUND));
                 let geometry = bodies.meet::<N, TORQUE>(first, second, found, roots);
+                let smaller = B::smaller_radius(found, geometry.contact.radius);
+                *deeper |= N::bits(geometry.contact.overlap.greater(smaller * so_far));
                 buffer.put::<N, TORQUE>(done, &geometry, needs);
                 roots = next;
             }

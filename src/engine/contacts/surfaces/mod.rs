@@ -14,17 +14,17 @@ use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
 use super::pass::{Pass, SurfaceTouch};
 use super::records::ContactRecord;
-use crate::base::lanes::{Shared, Width};
+use crate::base::lanes::Shared;
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::boundaries::RigidBody;
 use crate::engine::boundaries::passing::Passing;
-use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, Entries};
+use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, DeepestSearch, Entries};
 use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};
 use crate::engine::contacts::encounters::{self, Encounters};
 use crate::engine::run_error::{Cause, RunError};
 use crate::engine::state::ledger::Source;
-use crate::engine::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
+use crate::engine::state::{BoundaryState, Deepest, Named, Nodes, State, StateFault, WallContacts};
 use crate::engine::transfer::takes_heat;
 use crate::laws::surface::{self, Deforming};
 use crate::scene::{Boundary, Outside, Scene, Shape};
@@ -98,6 +98,8 @@ struct Workspace {
     contacts: Vec<FeatureContacts>,
     /// Room for the contacts with features of each surface.
     spare: Vec<ColumnBuffer>,
+    /// Who looks for the deepest contact at each surface.
+    deepest: Vec<DeepestSearch>,
 }
 
 /// What all pieces share.
@@ -114,6 +116,8 @@ struct Work<'a> {
     particles: ParticleLoads<'a>,
     /// How they came to where they are.
     passing: &'a Passing,
+    /// Who looks for the deepest contact at each surface.
+    deepest: &'a [DeepestSearch],
     /// Whether a boundary went so far in the present time step that what it went over may not be near it any more.
     far: bool,
     /// The threads.
@@ -174,8 +178,7 @@ impl AtSurface {
                 let bodies = self.at_plane(plane, (list, work.boundaries), work.particles);
                 let [from, to] =
                     [slots.start, slots.end].map(|end| bodies.particle.partition_point(|&slot| (slot as usize) < end));
-                let step = work.context.step;
-                let batches = self.batches(bodies, work.entries[self.index], (step, work.context.width));
+                let batches = self.batches(bodies, work.entries[self.index], work);
                 let load = self.run(&batches, from..to);
                 Load { conveying_power: -bodies.plane.conveying.dot(load.force.into()), ..load }
             }
@@ -206,17 +209,26 @@ impl AtSurface {
         batches.run(start, end, 0..0)
     }
 
-    /// A list that is evaluated in batches, after this time \[s\], in registers of this width.
-    fn batches<B>(&self, bodies: B, entries: Entries, (step, width): (f64, Width)) -> Batches<'_, B> {
+    /// A list that is evaluated in batches.
+    fn batches<'a, B>(&'a self, bodies: B, entries: Entries, work: &Work<'a>) -> Batches<'a, B> {
         Batches {
             bodies,
             entries,
             law: &self.law,
             table: &self.table,
             uniform: self.table.uniform_with(self.material),
-            step,
-            width,
+            step: work.context.step,
+            width: work.context.width,
+            deepest: &work.deepest[self.index],
         }
+    }
+
+    /// Notes the deepest contact, if one is deeper than all before.
+    fn note_deepest(&self, state: &mut State, search: DeepestSearch) {
+        let Some(found) = search.found() else { return };
+        let (particle, time) = (Named::at(&state.particles, found.first), state.clock.time);
+        let boundary = Some(self.list(state).boundary);
+        state.deepest.take(Deepest { overlap: found.overlap, time, particle, partner: None, boundary });
     }
 
     /// Adds the loads of the pieces to its boundary, in order.
@@ -278,6 +290,8 @@ impl Pass for SurfacePass {
         workspace.loads.resize(pieces * count, Load::default());
         workspace.contacts.resize_with(pieces * count, FeatureContacts::default);
         workspace.spare.resize_with(count, ColumnBuffer::default);
+        workspace.deepest.clear();
+        workspace.deepest.resize_with(count, || DeepestSearch::beyond(state.deepest.overlap));
         let particles = state.particles.len();
         let far = context.step > 0.0 && self.passing.went_far(state);
         let work = Work {
@@ -290,6 +304,7 @@ impl Pass for SurfacePass {
                 state.heat.as_mut().map_or(&mut [], |heat| &mut heat.of_losses),
             ),
             passing: &self.passing,
+            deepest: &workspace.deepest,
             far,
             context,
         };
@@ -310,6 +325,7 @@ impl Pass for SurfacePass {
                 features::replace(list, surface.kept_rows, spare, found());
                 surface.load_nodes(state, found().map(FeatureContacts::held));
             }
+            surface.note_deepest(state, std::mem::replace(&mut workspace.deepest[place], DeepestSearch::beyond(0.0)));
             result = result.and(surface.book(state, workspace.loads.iter().skip(place).step_by(count)));
         }
         result

@@ -189,6 +189,11 @@ impl Buffer {
         self.count -= self.ready;
     }
 
+    /// Overlap and radius of an entry \[m\].
+    pub(crate) fn depth(&self, place: usize) -> [f64; 2] {
+        [self.columns[at::OVERLAP][place], self.columns[at::RADIUS][place]]
+    }
+
     /// Reads a register's worth of what was found: `count` numbers each.
     ///
     /// # Safety

@@ -76,7 +76,7 @@ impl AtSurface {
         let held = at.moving.map(|_| held.columns());
         let (material, share_of_heat) = (self.material, self.share_of_heat);
         let bodies = AtFeet { at, particle, number, foot, weight, held, material, share_of_heat, particles };
-        let load = self.run(&self.batches(bodies, entries, (work.context.step, work.context.width)), 0..count);
+        let load = self.run(&self.batches(bodies, entries, work), 0..count);
         // SAFETY: as above.
         finish(unsafe { entries.flags.part(0, count) }, weight);
         Load { behind, ..load }
