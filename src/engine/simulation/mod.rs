@@ -22,6 +22,7 @@ mod run_checks;
 mod sight;
 mod start;
 mod state_check;
+mod step_length;
 mod taken_over;
 mod time_step;
 
