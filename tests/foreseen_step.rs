@@ -143,8 +143,10 @@ fn a_given_step_is_divided_where_the_bound_falls_below_it_and_counted() {
     assert!((parts - parts.round()).abs() < 1e-9, "the given step has {parts} parts");
     assert!(simulation.state().particles.velocity[0][2] > 0.5, "the plane has hit the sphere");
     let text = "strict_step beside allow_unstable";
-    let both =
-        crate::support::read(&plane_hits_sphere("step = 1e-3\nstrict_step = true\nallow_unstable = true", "fixed"));
+    let both = crate::support::read(&plane_hits_sphere(
+        "step = 1e-3\nstrict_step = true\nallow_unstable = true",
+        "driven = [\"z\"]",
+    ));
     assert!(both.as_ref().is_err_and(|error| error.contains(text)), "{both:?}");
 }
 

@@ -310,7 +310,11 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi2DoStep(component: Component, point: f64, length: f64, _no_restore_before: Boolean) -> Status {
     call(component, &calls::DO_STEP, |instance, logger| {
+        let whole = instance.divided_step().is_none();
         instance.step(point, length)?;
+        if let Some(told) = instance.divided_step().filter(|_| whole) {
+            logger.warned(calls::DO_STEP.name, &told);
+        }
         logger.event(|| format!("fmi2DoStep: {length} s to {} s", instance.time()));
         Ok(())
     })

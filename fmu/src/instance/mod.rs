@@ -273,6 +273,17 @@ impl Instance {
         format!("time step {step:.4e} s, the stable one {:.4e} s{by}", limit.safe)
     }
 
+    /// That the given time step was divided, in words, if it was.
+    pub(crate) fn divided_step(&self) -> Option<String> {
+        let clock = self.simulation.state().clock;
+        (clock.divided > 0).then(|| {
+            format!(
+                "the given time step is divided from now on where the stable one, now {:.4e} s, is below it",
+                clock.stable
+            )
+        })
+    }
+
     /// How the last communication step ended.
     pub(crate) fn last_step(&self) -> Status {
         self.course.last_step

@@ -23,6 +23,7 @@ mod sight;
 mod stages;
 mod start;
 mod state_check;
+mod step_length;
 mod taken_over;
 mod time_step;
 

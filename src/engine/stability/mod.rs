@@ -7,6 +7,7 @@
 //! ([`SearchLimits`]), [`impacts`] foresees pairs that are not yet near each other. `docs/stability.md` describes all of it.
 
 mod blocks;
+mod bonded_motion;
 mod cluster;
 mod impacts;
 mod impedance;

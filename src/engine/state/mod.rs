@@ -145,6 +145,11 @@ impl State {
         if self.clumps.is_empty() { None } else { self.particles.group(slot)?.checked_sub(self.boundaries.len()) }
     }
 
+    /// Whether anything is bonded.
+    pub(crate) fn is_bonded(&self) -> bool {
+        self.bonds.iter().any(|list| !list.first.is_empty())
+    }
+
     /// Whether two particles (slots) are spheres of one clump.
     pub(crate) fn are_of_one_clump(&self, a: u32, b: u32) -> bool {
         let of = |slot: u32| self.clump(slot as usize);

@@ -107,6 +107,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let cost = cost(&simulation, &trial);
     let economy = economy::of(scene, &simulation, forecast::fall(scene, &simulation));
     let savings = savings::of(scene, &simulation);
+    remarks.extend(savings::foretold(scene, &simulation));
     if scene.changes_number() {
         let what = "the number of particles changes: memory and cost are as measured at the start; time is a range, from as many particles as in the trial to all that come and none that go";
         remarks.push(what.to_owned());

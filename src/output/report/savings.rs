@@ -21,6 +21,12 @@ const LEAST: f64 = 0.03;
 /// Part of the stable step below which a given step is reported: the automatic step is longer by more than half.
 const SHORT: f64 = 0.6;
 
+/// The stable step of a packing over that of its grains in flight.
+const PACKED: [f64; 2] = [1.0 / 3.0, 0.5];
+
+/// So many grains pack.
+const FEW: usize = 30;
+
 /// Something that a scene could drop.
 struct Unused {
     /// What it is and why.
@@ -47,9 +53,30 @@ pub(super) fn of(scene: &Arc<Scene>, present: &Simulation) -> Vec<String> {
     lines
 }
 
-/// A given step that is much shorter than an automatic one.
+/// The stable time steps, least first, that grains which are loose now have once they pack \[s\]; none where few or none do.
+fn packed(scene: &Scene, present: &Simulation) -> Option<[f64; 2]> {
+    let bodies = scene.particles.len();
+    let packs = bodies >= FEW || !scene.insertions.is_empty();
+    let is_loose = present.contact_count() < bodies && !scene.contacts.is_empty() && !present.state().is_bonded();
+    (packs && is_loose).then(|| PACKED.map(|part| part * present.stable_step()))
+}
+
+/// On a given step that is divided once grains pack.
+pub(super) fn foretold(scene: &Scene, present: &Simulation) -> Option<String> {
+    let Step::Given(step) = scene.run.step else { return None };
+    let [least, most] = packed(scene, present)?;
+    (step > least).then(|| {
+        let then = if scene.run.strict_step { "the run then stops" } else { "longer steps are then divided" };
+        format!("[run] step: the grains are loose at the start; where they pack the stable step falls to about {least:.1e} to {most:.1e} s, and {then}")
+    })
+}
+
+/// A given step that is much shorter than an automatic one, and will be.
 fn short_step(scene: &Scene, present: &Simulation) -> Option<String> {
     let Step::Given(step) = scene.run.step else { return None };
+    if packed(scene, present).is_some() {
+        return None;
+    }
     let (stable, part) = (present.stable_step(), step / economy::default_step(scene)?);
     (stable.is_finite() && part < SHORT).then(|| {
         format!(
