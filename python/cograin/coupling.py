@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -21,6 +22,8 @@ from cograin.record import COLUMNS, Record, Row
 from cograin.step import Outcome, Step
 from cograin.unit import StepDiscarded, Unit
 from cograin.vector import Vector, vector
+
+_log = logging.getLogger("cograin")
 
 #: What is recorded beside the columns of every record: names of a unit's variables, or names with what gives a value.
 Watch = Sequence[str] | Mapping[str, Callable[[], float]]
@@ -204,6 +207,8 @@ class Coupling:
             raise
         if file is not None:
             file.unlink(missing_ok=True)
+        if self.record.remark:
+            _log.warning("%s: %s", type(self.exchange).__name__, self.record.remark)
         return self.record
 
     @property

@@ -16,6 +16,9 @@ from cograin.vector import Vector
 #: Columns of every record, before displacements, forces and what is watched.
 COLUMNS = ("time", "length", "evaluations", "residual", "converged", "refusals", "interface_energy", "exchanged_work")
 
+#: Energy that an exchange makes or loses, over what is exchanged, from which on the record remarks it.
+REMARKED = 0.02
+
 
 @dataclass
 class Row:
@@ -109,6 +112,18 @@ class Record:
         return [row for row in self.rows if not row.converged]
 
     @property
+    def remark(self) -> str:
+        """That the exchange made or lost so much energy that the motion is not to be trusted; else empty."""
+        made, exchanged = self.interface_energy, self.exchanged_work
+        if abs(made) <= REMARKED * exchanged:
+            return ""
+        share = abs(made) / exchanged if exchanged else float("inf")
+        told = (
+            f"{'made' if made > 0.0 else 'lost'} {abs(made):.2e} J, {100.0 * share:.2g} % of what both sides exchanged"
+        )
+        return f"the exchange {told}: do not trust the motion; take a shorter step, or an exchange that is repeated"
+
+    @property
     def summary(self) -> str:
         """A few lines for the end of a run."""
         if not self.rows:
@@ -125,7 +140,7 @@ class Record:
         if self.unconverged:
             worst = max(self.unconverged, key=lambda row: row.residual)
             lines.append(f"{len(self.unconverged)} steps did not converge; worst at {worst.time:g} s: {worst.reason}")
-        return "\n".join(lines)
+        return "\n".join([*lines, self.remark] if self.remark else lines)
 
     @property
     def table(self) -> Table:

@@ -194,3 +194,69 @@ def test_components_of_a_quantity_without_unit_share_a_panel(tmp_path):
     panels = history(read_table(tmp_path / "cell.csv")).axes
     drawn = [{line.get_label() for line in panel.get_lines()} for panel in panels]
     assert drawn == [set(names[2:4]), set(names[:2]), {names[4]}]
+
+
+def test_a_package_that_is_missing_is_named_with_the_extra_that_brings_it(folder, monkeypatch, tmp_path, capsys):
+    import sys
+
+    from cograin.plot import main
+    from cograin.study import Study
+
+    study = Study({"x": [1]}, len, tmp_path / "study")
+    cases = {
+        "pandas": (Run(folder).history.to_pandas, "tables"),
+        "xarray": (Run(folder).history.to_xarray, "tables"),
+        "pyarrow": (lambda: study.save(tmp_path / "table.parquet"), "study"),
+    }
+    for module, (act, extra) in cases.items():
+        with monkeypatch.context() as patched:
+            patched.setitem(sys.modules, module, None)
+            with pytest.raises(ModuleNotFoundError, match=rf"{module}: not found; install cograin\[{extra}\]"):
+                act()
+    with monkeypatch.context() as patched:
+        patched.setitem(sys.modules, "matplotlib.figure", None)
+        assert main([str(folder)]) == 1
+    assert "not found; install cograin[plot]" in capsys.readouterr().err
+
+
+PAIR = """
+gravity = [0.0, 0.0, 0.0]
+[run]
+end = 0.001
+step = 1.0e-5
+[material.s]
+density = 2500.0
+[pair.s.s]
+normal_stiffness = 1.0e4
+normal_damping = 0.0
+[contact.touch.normal.hooke_stiffness]
+[clump.rod]
+spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }, { position = [0.01, 0.0, 0.0], radius = 0.01 }]
+[particles.p]
+material = "s"
+list = [{ position = [0.005, 0.05, 0.05], radius = 0.01 }, { position = [0.0965, 0.0678, 0.05], radius = 0.01 }]
+[particles.rods]
+material = "s"
+clump = "rod"
+list = [{ position = [0.05, 0.05, 0.05], radius = 0.02 }]
+[cell]
+edges = [[0.1, 0.0, 0.0], [0.02, 0.1, 0.0], [0.0, 0.0, 0.1]]
+[output]
+frame_interval = 1.0e-3
+contacts = true
+"""
+
+
+def test_force_chains_go_through_the_faces_of_a_cell(program, tmp_path):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import force_chains
+
+    (tmp_path / "scene.toml").write_text(PAIR)
+    program("run", tmp_path / "scene.toml", "-o", tmp_path / "out")
+    frame = Run(tmp_path / "out").frames[0]
+    assert len(frame.clumps) == 1 and len(frame.cell.cells) == 12
+    assert np.allclose(frame.edges, [[0.1, 0.0, 0.0], [0.02, 0.1, 0.0], [0.0, 0.0, 0.1]])
+    (lines,) = [each for each in force_chains(frame, "z").axes[0].collections if hasattr(each, "get_segments")]
+    lengths = [float(np.linalg.norm(end - begin)) for begin, end in lines.get_segments()]
+    # Two halves of one contact, at both faces; none goes through the packing.
+    assert len(lengths) == 2 and max(lengths) < 0.02
