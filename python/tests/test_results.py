@@ -234,11 +234,11 @@ normal_damping = 0.0
 spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }, { position = [0.01, 0.0, 0.0], radius = 0.01 }]
 [particles.p]
 material = "s"
-list = [{ position = [0.005, 0.05, 0.05], radius = 0.01 }, { position = [0.0965, 0.0678, 0.05], radius = 0.01 }]
+list = [{ position = [0.0145, 0.05, 0.05], radius = 0.01 }, { position = [0.106, 0.0678, 0.05], radius = 0.01 }]
 [particles.rods]
 material = "s"
 clump = "rod"
-list = [{ position = [0.05, 0.05, 0.05], radius = 0.02 }]
+list = [{ position = [0.06, 0.05, 0.05], radius = 0.02 }]
 [cell]
 edges = [[0.1, 0.0, 0.0], [0.02, 0.1, 0.0], [0.0, 0.0, 0.1]]
 [output]
