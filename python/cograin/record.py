@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -76,6 +77,10 @@ class Record:
     def settings(self) -> dict[str, Any]:
         """Its columns."""
         return {"names": self.names}
+
+    def _repr_html_(self) -> str:
+        """Its table and summary, as a notebook shows them."""
+        return f"{self.table._repr_html_()}<pre>{escape(self.summary)}</pre>"
 
     def memory(self) -> Any:
         """All rows: their numbers, and why some did not converge."""

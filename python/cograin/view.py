@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from cograin.extras import needed
-from cograin.plot import FIELDS, _ends, _joined, _magnitude, _scale
+from cograin.plot import FIELDS, _ends, _joined, _magnitude, _scale, _still
 from cograin.results import Cloud, Frame, ResultError, Run
 
 #: Directions from which a picture may be seen.
@@ -58,7 +58,7 @@ def scene(
     plotter.set_background("white")
     particles = chosen.particles
     if len(particles):
-        _particles(pyvista, plotter, particles, by, names or {}, scale, thin=chains)
+        _particles(pyvista, plotter, particles, by, names or {}, scale, _still(particles, chosen.time), chains)
     _surfaces(pyvista, plotter, chosen, pressure)
     if (bonds := chosen.bonds) is not None and len(bonds) and len(particles):
         _tubes(pyvista, plotter, bonds.points.reshape(-1, 2, 3), np.median(particles["radius"]) / 4.0, "#444444")
@@ -80,7 +80,14 @@ def _turned(plotter: Any, view: str) -> None:
 
 
 def _particles(
-    pyvista: Any, plotter: Any, particles: Cloud, by: str, names: Mapping[int, str], scale: Any, thin: bool
+    pyvista: Any,
+    plotter: Any,
+    particles: Cloud,
+    by: str,
+    names: Mapping[int, str],
+    scale: Any,
+    still: float,
+    thin: bool,
 ) -> None:
     """The particles as spheres, those of clumps, too, coloured by a field."""
     if by == "set" and "set" not in particles.fields:
@@ -103,6 +110,8 @@ def _particles(
         style["scalar_bar_args"] = {"title": by, "color": "black", "n_labels": 0}
     else:
         style.update(clim=scale or _scale(_magnitude(values)), cmap="viridis")
+        if scale is None and by == "velocity":
+            style["clim"] = (style["clim"][0], max(style["clim"][1], still))
         unit = FIELDS.get(by, "1")
         title = by if unit == "1" else f"{by} [{unit}]"
         style["scalar_bar_args"] = {"title": title, "color": "black", "fmt": "%.3g"}
@@ -121,7 +130,7 @@ def _surfaces(pyvista: Any, plotter: Any, frame: Frame, pressure: bool) -> None:
     if pressure:
         mesh.cell_data["pressure"] = surfaces["normal_pressure"]
         bar = {"title": "pressure [Pa]", "color": "black", "fmt": "%.3g", "position_y": 0.9}
-        plotter.add_mesh(mesh, scalars="pressure", cmap="magma_r", opacity=0.7, scalar_bar_args=bar)
+        plotter.add_mesh(mesh, scalars="pressure", cmap="magma_r", opacity=0.5, scalar_bar_args=bar)
     else:
         plotter.add_mesh(
             mesh, color="#8899aa", opacity=0.15, show_edges=len(surfaces.cells) < 500, edge_color="#8899aa"
@@ -151,7 +160,7 @@ def _chains(pyvista: Any, plotter: Any, frame: Frame, particles: Cloud) -> None:
         return
     mesh = _lines(pyvista, lines)
     share = np.repeat(np.sqrt(np.abs(force) / largest), 2)
-    mesh.point_data["width"] = np.maximum(0.5 * np.median(particles["radius"]) * share, 1e-12 * largest)
+    mesh.point_data["width"] = np.median(particles["radius"]) * np.maximum(0.25 * share, 1e-3)
     mesh.point_data["normal force [N]"] = np.repeat(force, 2)
     tubes = mesh.tube(scalars="width", absolute=True, n_sides=8)
     bar = {"title": "normal force [N]", "color": "black", "fmt": "%.3g"}
@@ -190,7 +199,7 @@ def save(run: Run, path: str | Path, **named: Any) -> Path:
     if path.suffix == ".png":
         plotter.screenshot(path)
     else:
-        for module in ("trame", "trame_vtk", "trame_vuetify"):
+        for module in ("trame_pyvista", "nest_asyncio2"):
             needed(module, "view")
         plotter.export_html(path)
     plotter.close()

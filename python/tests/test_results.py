@@ -260,3 +260,38 @@ def test_force_chains_go_through_the_faces_of_a_cell(program, tmp_path):
     lengths = [float(np.linalg.norm(end - begin)) for begin, end in lines.get_segments()]
     # Two halves of one contact, at both faces; none goes through the packing.
     assert len(lengths) == 2 and max(lengths) < 0.02
+
+
+def test_a_notebook_shows_tables_and_runs(folder):
+    shown = Run(folder)._repr_html_()
+    assert "<th>time [s]</th>" in shown and shown.count("<tr>") == 11 and "21 rows" in shown
+    assert "&lt;Run in" in shown
+
+
+def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
+    pytest.importorskip("pyvista")
+    image = pytest.importorskip("PIL.Image")
+    from cograin.view import main
+
+    def drawn(*words):
+        assert main([str(folder), "-o", str(tmp_path / "view.png"), *words]) == 0, capsys.readouterr().err
+        return np.asarray(image.open(tmp_path / "view.png").convert("RGB")).reshape(-1, 3)
+
+    pictures = [drawn(*words) for words in (["--by", "set"], ["--chains"], ["--pressure", "--view", "x"])]
+    for picture in pictures:
+        assert (picture.min(axis=1) < 245).mean() > 0.01, "more than the background"
+    assert (np.ptp(pictures[0], axis=1) > 60).any(), "sets have colours"
+    assert not np.array_equal(pictures[0], pictures[1])
+    assert main([str(folder), "-o", str(tmp_path / "film.gif")]) == 0
+    assert image.open(tmp_path / "film.gif").n_frames == len(Run(folder).frames)
+    for words in (["--by", "colour"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
+        assert main([str(folder), *words]) == 2
+    assert "expected one of radius" in capsys.readouterr().err
+
+
+def test_a_bed_at_rest_is_not_coloured_by_its_rounding():
+    from cograin.plot import _still
+    from cograin.results import Cloud
+
+    bed = Cloud(np.zeros((3, 3)), {"radius": np.full(3, 1e-3)})
+    assert _still(bed, 2.0) == 5e-6 and _still(bed, 0.0) == 0.0
