@@ -2,8 +2,9 @@
 
 A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
 `Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `RigidBody`, a
-`UnitPartner`. An `Exchange` says how both sides agree on a communication step: `GaussSeidel`, `Jacobi` and `Verlet` are
-explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step; `Quadratic` is of fourth order.
+`HeatCapacity`, a `UnitPartner`. An `Exchange` says how both sides agree on a communication step: `GaussSeidel`,
+`Jacobi` and `Verlet` are explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step;
+`Quadratic` is of fourth order.
 `couple` runs both sides and returns a `Record`.
 
 The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
@@ -33,6 +34,7 @@ joins units to preCICE.
 
 from cograin.coupling import Coupling, CouplingStopped, StepControl, couple
 from cograin.exchange import Exchange, GaussSeidel, Jacobi, Side, Verlet
+from cograin.heat import HeatCapacity
 from cograin.implicit import Aitken, FixedPoint, Implicit, Newton, QuasiNewton, Secant
 from cograin.interface import Interface, stiffness
 from cograin.mapping import Mapping
@@ -55,6 +57,7 @@ __all__ = [
     "FixedPoint",
     "Force",
     "GaussSeidel",
+    "HeatCapacity",
     "Implicit",
     "Interface",
     "Jacobi",

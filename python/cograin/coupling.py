@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -15,12 +16,15 @@ from cograin import checkpoint as checkpoints
 from cograin import interrupts
 from cograin.exchange import Exchange, Side
 from cograin.identity import differing, digest, identity
+from cograin.interface import TEMPERATURE
 from cograin.partner import Partner
 from cograin.progress import Progress
 from cograin.record import COLUMNS, Record, Row
 from cograin.step import Outcome, Step
 from cograin.unit import StepDiscarded, Unit
 from cograin.vector import Vector, vector
+
+_log = logging.getLogger("cograin")
 
 #: What is recorded beside the columns of every record: names of a unit's variables, or names with what gives a value.
 Watch = Sequence[str] | Mapping[str, Callable[[], float]]
@@ -204,6 +208,8 @@ class Coupling:
             raise
         if file is not None:
             file.unlink(missing_ok=True)
+        if self.record.remark:
+            _log.warning("%s: %s", type(self.exchange).__name__, self.record.remark)
         return self.record
 
     @property
@@ -423,8 +429,9 @@ class Coupling:
         """The partner follows, and the row is written."""
         before = self.partner.displacement
         self.exchange.commit(self.partner, step, outcome)
-        on_partner = float(outcome.partner_force @ (self.partner.displacement - before)) + outcome.further_work
-        on_units = self._work_on_units()
+        way = self._way(self.partner.displacement - before, step.length)
+        on_partner = float(outcome.partner_force @ way) + outcome.further_work
+        on_units = self._work_on_units(step.length)
         self._before, self._force = self._force, outcome.force
         self._lengths = (self._lengths[1], step.length)
         row = Row(
@@ -443,12 +450,17 @@ class Coupling:
         self.record.rows.append(row)
         return row
 
-    def _work_on_units(self) -> float:
+    def _way(self, moved: Vector, length: float) -> Vector:
+        """What makes energy of a force: the way; of a heat flow: the time."""
+        warm = [name.endswith(f".{TEMPERATURE}") for name in self.interface.names]
+        return np.where(warm, length, moved)
+
+    def _work_on_units(self, length: float) -> float:
         """Work on the particles in the last step, by the account of the units or by the mean force \\[J\\]."""
         stood, self._stood = self._stood, self.interface.displacement
         total = self.interface.work
         if total is None:
-            return -float(self.interface.force("mean") @ (self._stood - stood))
+            return -float(self.interface.force("mean") @ self._way(self._stood - stood, length))
         before, self._worked = self._worked, total
         return total - before
 
@@ -530,6 +542,9 @@ def _force_name(name: str, kind: str) -> str:
     for given, answer in (("displacement", "force"), ("rotation", "moment")):
         if f".{given}." in name:
             return name.replace(f".{given}.", f".{'mean_' if kind == 'mean' else ''}{answer}.")
+    stem, _, last = name.rpartition(".")
+    if stem and last == TEMPERATURE:
+        return f"{stem}.{'mean_' if kind == 'mean' else ''}heat_flow"
     return f"{name}.{kind}_force"
 
 

@@ -19,6 +19,9 @@ from cograin.vector import Matrix, Vector, root_of_inverse, vector
 #: Trials on both sides of the solution that are nearer than this part of what may be left are as good as one.
 CLOSED = 1e-6
 
+#: How many trials in several directions `QuasiNewton` makes that do not halve the residual.
+PATIENCE = 20
+
 #: A compliance that is less symmetric is that of no work.
 SKEW = 0.1
 
@@ -130,13 +133,14 @@ class Search:
         move = np.abs(trial.displacement - self.partner.displacement)
         return self.measure.size(np.maximum(move, self.measure.moved(trial.force)))
 
-    def within(self, target: Vector) -> Vector:
+    def within(self, target: Vector, patience: int = 3) -> Vector:
         """The displacement to try in place of a target that cannot be right.
 
         Particles resist, so the residual r falls along every way by at least as much as the displacement u grows. The
         solution is then nearer to the middle of u and u + r than half of r, measured by the partner's work: in one
         direction each trial bounds it on both sides. A target that is farther from one of the trials gives way to the
         middle between the best trial and the nearest one that says the opposite, or to the middle of u and u + r.
+        So does every target, but for one in four, where ``patience`` trials did not halve the residual.
         """
         best, place = self.best, self.measure.root() @ target
         bound = 2.0 * float(np.linalg.norm(best.way))
@@ -144,7 +148,8 @@ class Search:
             # No work measures such a partner, or such a residual.
             return target
         far = float(np.linalg.norm(place - best.place)) / bound
-        slow = len(self.trials) > 3 and best.size > 0.5 * min(trial.size for trial in self.trials[:-3])
+        patience = patience if len(target) > 1 else 3
+        slow = len(self.trials) > patience and best.size > 0.5 * min(trial.size for trial in self.trials[:-patience])
         if self.gives_way() or len(target) > 1:
             # In several directions a bound on one of them cuts off too much of the others; only what strays is held.
             if slow and len(self.trials) % 4:
@@ -434,10 +439,15 @@ class Secant(Implicit):
 
 
 class QuasiNewton(Implicit):
-    """Several directions without derivatives: interface quasi-Newton with an inverse from least squares (IQN-ILS).
+    """Several directions without derivatives: the trials show the stiffness of the particles.
 
-    The response of the partner is assumed to be linear in the differences of the trials of this step and of the last
-    ``reuse`` steps (Degroote, Bathe & Vierendeels 2009). ``relaxation`` is used for the very first correction.
+    With a partner that tells its compliance C, the stiffness K of the particles is estimated, and a correction d closes
+    the residual r by (1 + C K) d = r. K begins as one number for all directions, each by its weight, and takes up the
+    differences of the trials of the last ``reuse`` steps and of this one (Broyden, Fletcher, Goldfarb and Shanno): it
+    stays positive, as particles resist. So light and heavy parts of the partner each get a correction of their own.
+
+    With a partner that does not tell it, the inverse comes from least squares over the same differences (IQN-ILS;
+    Degroote, Bathe & Vierendeels 2009). ``relaxation`` is used for the very first correction.
     """
 
     def __init__(
@@ -452,22 +462,49 @@ class QuasiNewton(Implicit):
         super().__init__(tolerance=tolerance, force=force, limit=limit)
         self.relaxation = relaxation
         self.reuse = reuse
-        self._past: list[list[tuple[Vector, Vector]]] = []  # differences of residual and displacement, newest first
+        # Differences of residual, displacement and force of each of the last steps, newest first.
+        self._past: list[list[tuple[Vector, Vector, Vector]]] = []
 
     def correct(self, search: Search) -> Vector:
         now = search.last
-        columns = self._differences(search) + [pair for step in self._past for pair in step]
-        return search.within(now.displacement + self._closing(columns, now.residual))
+        pairs = [self._differences(search), *self._past]
+        return search.within(now.displacement + self._closing(search, pairs, now.residual), PATIENCE)
 
     def answer(self, search: Search, residual: Vector) -> Vector | None:
-        columns = [pair for step in self._past for pair in step]
-        return self._closing(columns, residual) if columns else None
+        return self._closing(search, self._past, residual) if self._past else None
 
-    def _closing(self, columns: list[tuple[Vector, Vector]], residual: Vector) -> Vector:
-        """The change of the displacement that closes a residual, by these differences."""
+    def _closing(self, search: Search, pairs: list[list[tuple[Vector, Vector, Vector]]], residual: Vector) -> Vector:
+        """The change of the displacement that closes a residual, by these differences, newest first."""
+        columns = [pair for step in pairs for pair in step]
         if not columns:
             return self.relaxation * residual
-        residuals, answers = self._independent(columns)
+        compliance = search.measure.compliance
+        if compliance is None:
+            return self._by_least_squares(columns, residual)
+        known = self._stiffness(columns, search.measure.weights)
+        return vector(np.linalg.solve(np.eye(len(residual)) + compliance @ known, residual))
+
+    @staticmethod
+    def _stiffness(columns: list[tuple[Vector, Vector, Vector]], weights: Vector) -> Matrix:
+        """Stiffness of the particles by differences, newest first; those against which nothing resists are left out."""
+        resisted = [
+            (moved, -force)
+            for _, moved, force in columns
+            if -float(moved @ force) > 1e-8 * float(np.linalg.norm(moved / weights) * np.linalg.norm(force * weights))
+        ]
+        if not resisted:
+            return np.zeros((len(weights), len(weights)))
+        moved, force = resisted[0]
+        found: Matrix = np.diag(float(moved @ force) / float(np.sum((moved / weights) ** 2)) / weights**2)
+        for moved, force in reversed(resisted):
+            before = found @ moved
+            found = found - np.outer(before, before) / float(moved @ before)
+            found = found + np.outer(force, force) / float(moved @ force)
+        return found
+
+    def _by_least_squares(self, columns: list[tuple[Vector, Vector, Vector]], residual: Vector) -> Vector:
+        """The same by the differences alone."""
+        residuals, answers = self._independent([(left, moved) for left, moved, _ in columns])
         weights = np.linalg.lstsq(residuals, -residual, rcond=None)[0]
         along: Vector = answers @ weights
         # What the differences do not span is relaxed.
@@ -480,11 +517,14 @@ class QuasiNewton(Implicit):
             self._past = [self._differences(search), *self._past][: self.reuse]
 
     @staticmethod
-    def _differences(search: Search) -> list[tuple[Vector, Vector]]:
-        """Differences of the last trial to the ones before it, newest first."""
-        now = search.last
-        earlier = reversed(search.trials[:-1])
-        return [(now.residual - one.residual, now.displacement - one.displacement) for one in earlier]
+    def _differences(search: Search) -> list[tuple[Vector, Vector, Vector]]:
+        """Differences of each trial to the one before it, newest first."""
+        pairs = zip(search.trials[1:], search.trials[:-1], strict=True)
+        found = [
+            (now.residual - one.residual, now.displacement - one.displacement, now.force - one.force)
+            for now, one in pairs
+        ]
+        return found[::-1]
 
     @staticmethod
     def _independent(columns: list[tuple[Vector, Vector]]) -> tuple[Matrix, Matrix]:

@@ -20,6 +20,8 @@ _ANSWERS = {
     "rotation": ("moment", "mean_moment"),
 }
 
+#: The last word of a direction that is a temperature, with a heat flow in place of a force.
+TEMPERATURE = "temperature"
 
 #: What `_answer` counts.
 _KINDS: tuple[Force, Force] = ("end", "mean")
@@ -112,7 +114,8 @@ class _Part:
                 raise ValueError(f"{unit.name}: {name} is an {unit.variable(name).causality}; an input is needed")
         boundaries = dict.fromkeys(name.split(".")[0] for name in displacements)
         works = tuple(f"{boundary}.work" for boundary in boundaries)
-        self.works = works if all(name in unit.variables for name in works) else ()
+        warm = any(name.endswith(f".{TEMPERATURE}") for name in displacements)
+        self.works = works if not warm and all(name in unit.variables for name in works) else ()
         self.slopes: tuple[str, ...] = ()  # names of the slopes of the forces, once they are asked for
         self.state: State | None = None
         self.begin = unit.get(displacements)
@@ -245,6 +248,9 @@ class Interface:
     ``through`` is a matrix with a row for each of the displacements and a column for each direction of the partner: the
     unit moves by it, and forces go back by its transpose. The partner's displacements are counted from where the unit
     stands. With the `matrix` of a `Mapping` they are those of the nodes of the partner's own mesh.
+
+    ``Interface(bed, "floor.temperature")`` couples a temperature \\[K\\]; what responds is the heat flow of the
+    particles into the boundary \\[W\\], ``floor.heat_flow`` and ``floor.mean_heat_flow``.
 
     ``substeps`` is how many communication steps of the units make one of the coupling; the boundary moves at constant
     velocity through all of them.
@@ -507,10 +513,12 @@ def _several(names: str | Sequence[str]) -> tuple[str, ...]:
 
 
 def _answer(name: str, kind: int) -> str:
-    """Name of the force (0) or mean force (1) that belongs to a displacement."""
+    """Name of the force (0) or mean force (1) that belongs to a displacement; of the heat flow to a temperature."""
     parts = name.split(".")
+    if len(parts) > 1 and parts[-1] == TEMPERATURE:
+        return ".".join([*parts[:-1], ("heat_flow", "mean_heat_flow")[kind]])
     if len(parts) < 3 or parts[-2] not in _ANSWERS:
-        expected = "<boundary>.displacement.<axis> or <boundary>.rotation.<axis>"
+        expected = "<boundary>.displacement.<axis>, <boundary>.rotation.<axis> or <boundary>.temperature"
         advice = "name forces and mean_forces where a unit calls them otherwise"
         raise ValueError(f"expected {expected}, found {name}; {advice}")
     return ".".join([*parts[:-2], _ANSWERS[parts[-2]][kind], parts[-1]])

@@ -17,14 +17,14 @@ _before = -1  # who else was told of signals
 
 #: What ends the steps of units that are under way.
 _running: dict[int, Callable[[], Any]] = {}
+_lock = threading.Lock()
 
 
 @contextmanager
 def held() -> Iterator[None]:
     """Holds an interrupt until the block ends, or until `check` is called in it; a second one acts at once."""
     global _depth, _usual, _before
-    mine = threading.current_thread() is threading.main_thread()
-    if not mine:
+    if not is_main():
         yield
         return
     if _depth == 0:
@@ -57,7 +57,9 @@ def ending(cancel: Callable[[], Any]) -> Iterator[None]:
     try:
         yield
     finally:
-        _running.pop(key, None)
+        # What ends this step must not come to a later call.
+        with _lock:
+            _running.pop(key, None)
 
 
 #: Ends of the pipe through which the system tells a signal, while Python waits for a call of a library.
@@ -67,7 +69,7 @@ _pipe: tuple[int, int] | None = None
 def _watch() -> None:
     """Begins to listen, in a thread of its own, in the first step of a process."""
     global _pipe
-    if _pipe is None and threading.current_thread() is threading.main_thread():
+    if _pipe is None and is_main():
         _pipe = os.pipe()
         os.set_blocking(_pipe[1], False)
         threading.Thread(target=_listen, args=(_pipe[0],), name="cograin interrupts", daemon=True).start()
@@ -75,8 +77,8 @@ def _watch() -> None:
 
 def _forget() -> None:
     """A process that was forked has no such thread."""
-    global _pipe
-    _pipe = None
+    global _pipe, _lock
+    _pipe, _lock = None, threading.Lock()
     _running.clear()
 
 
@@ -88,13 +90,19 @@ def _listen(told: int) -> None:
     """Ends the steps that are under way when an interrupt is told."""
     while signals := os.read(told, 64):
         if signal.SIGINT in signals:
-            for cancel in list(_running.values()):
-                cancel()
+            with _lock:
+                for cancel in list(_running.values()):
+                    cancel()
+
+
+def is_main() -> bool:
+    """Whether this is the thread in which interrupts act."""
+    return threading.current_thread() is threading.main_thread()
 
 
 def check() -> None:
     """Lets an interrupt act here that came in the meantime."""
-    if _caught is not None and threading.current_thread() is threading.main_thread():
+    if _caught is not None and is_main():
         _act()
 
 

@@ -179,6 +179,15 @@ def _scale(values: Any) -> tuple[float, float]:
     return float(values.min()), float(np.percentile(values, 99.0))
 
 
+#: Part of its radius that a grain at rest may have moved since the start, at its present speed.
+STILL = 0.01
+
+
+def _still(particles: Cloud, time: float) -> float:
+    """The speed below which particles are at rest, as a picture shows them \\[m/s\\]."""
+    return STILL * float(np.median(particles["radius"])) / time if time > 0.0 else 0.0
+
+
 #: Outlines of particles, which show on every colour.
 EDGES: dict[str, Any] = {"edgecolors": "#999999", "linewidths": 0.4}
 #: Units of the fields of particles.
@@ -216,6 +225,8 @@ def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[fl
     else:
         values = _magnitude(values)
         low, high = scale or _scale(values)
+        if scale is None and by == "velocity":
+            high = max(high, _still(particles, frame.time))
         factor, unit = _prefixed([low, high], FIELDS.get(by, "1"))
         drawn = _circles(panel, particles, view, values=factor * values, cmap="viridis", **EDGES)
         drawn.set_clim(factor * low, factor * high)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,9 @@ from cograin.vector import Vector
 
 #: Columns of every record, before displacements, forces and what is watched.
 COLUMNS = ("time", "length", "evaluations", "residual", "converged", "refusals", "interface_energy", "exchanged_work")
+
+#: Energy that an exchange makes or loses, over what is exchanged, from which on the record remarks it.
+REMARKED = 0.02
 
 
 @dataclass
@@ -74,6 +78,10 @@ class Record:
         """Its columns."""
         return {"names": self.names}
 
+    def _repr_html_(self) -> str:
+        """Its table and summary, as a notebook shows them."""
+        return f"{self.table._repr_html_()}<pre>{escape(self.summary)}</pre>"
+
     def memory(self) -> Any:
         """All rows: their numbers, and why some did not converge."""
         numbers = np.array([row.values for row in self.rows]).reshape(-1, len(self.names))
@@ -109,6 +117,18 @@ class Record:
         return [row for row in self.rows if not row.converged]
 
     @property
+    def remark(self) -> str:
+        """That the exchange made or lost so much energy that the motion is not to be trusted; else empty."""
+        made, exchanged = self.interface_energy, self.exchanged_work
+        if abs(made) <= REMARKED * exchanged:
+            return ""
+        share = abs(made) / exchanged if exchanged else float("inf")
+        told = (
+            f"{'made' if made > 0.0 else 'lost'} {abs(made):.2e} J, {100.0 * share:.2g} % of what both sides exchanged"
+        )
+        return f"the exchange {told}: do not trust the motion; take a shorter step, or an exchange that is repeated"
+
+    @property
     def summary(self) -> str:
         """A few lines for the end of a run."""
         if not self.rows:
@@ -125,7 +145,7 @@ class Record:
         if self.unconverged:
             worst = max(self.unconverged, key=lambda row: row.residual)
             lines.append(f"{len(self.unconverged)} steps did not converge; worst at {worst.time:g} s: {worst.reason}")
-        return "\n".join(lines)
+        return "\n".join([*lines, self.remark] if self.remark else lines)
 
     @property
     def table(self) -> Table:

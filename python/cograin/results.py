@@ -13,6 +13,7 @@ import json
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -115,6 +116,13 @@ class Table(Mapping[str, Vector]):
         names = [name if self.unit_of(name) == "1" else f"{name} [{self.unit_of(name)}]" for name in self]
         return f"<Table of {self.rows} rows: {_listed(names)}>"
 
+    def _repr_html_(self) -> str:
+        """The first and the last rows, as a notebook shows them."""
+        shown = list(range(self.rows)) if self.rows <= 10 else [*range(5), *range(self.rows - 5, self.rows)]
+        heads = [f"{name} [{self.unit_of(name)}]" if self.unit_of(name) != "1" else name for name in self]
+        rows = [[f"{values[place]:.6g}" for values in self.values()] for place in shown]
+        return _html(heads, rows, f"{self.rows} rows, {len(self)} columns")
+
     def unit_of(self, name: str) -> str:
         """The unit of a column: what the run or the record says, else what the name tells."""
         return self._units.get(name) or unit_of(name)
@@ -139,6 +147,13 @@ class Table(Mapping[str, Vector]):
         }
         at = self._columns.get("time", np.arange(self.rows, dtype=float))
         return xarray.Dataset(variables, coords={time: (time, at, {"units": self.unit_of(time)})})
+
+
+def _html(heads: list[str], rows: list[list[str]], told: str) -> str:
+    """A table of a page, and a line below it."""
+    head = "".join(f"<th>{escape(name)}</th>" for name in heads)
+    body = "".join("<tr>" + "".join(f"<td>{escape(word)}</td>" for word in row) + "</tr>" for row in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table><p>{escape(told)}</p>"
 
 
 def _listed(names: list[str], most: int = 8) -> str:
@@ -288,6 +303,10 @@ class Run:
 
     def __repr__(self) -> str:
         return f"<Run in {self.folder}: .history, .summary, .frames, .breakage>"
+
+    def _repr_html_(self) -> str:
+        """Its history, as a notebook shows it."""
+        return f"<p>{escape(repr(self))}</p>{self.history._repr_html_()}"
 
     @property
     def history(self) -> Table:

@@ -7,6 +7,7 @@ import logging
 import tempfile
 import time
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -95,6 +96,7 @@ class Unit:
         self.variables: dict[str, Any] = {variable.name: variable for variable in self.description.modelVariables}
         self._groups: dict[tuple[str, ...], tuple[Any, Any, int, Vector]] = {}
         self._messages: list[str] = []
+        self._ended = False  # whether an interrupt was to end the present step
         self._states = 0  # saved ones that it may return to
         self._folder = tempfile.TemporaryDirectory(prefix="cograin-")
         #: Where it is unpacked.
@@ -332,14 +334,7 @@ class Unit:
         # Where a saved state is kept, it may come back to a time before this one.
         final = fmpy.fmi2.fmi2False if self._states else fmpy.fmi2.fmi2True
         with interrupts.held():
-            try:
-                with interrupts.ending(self._cancel):
-                    self.slave.doStep(self.time, length, final)
-            except FMICallException as refusal:
-                if refusal.status != _PENDING or not self._waited():
-                    # A step that an interrupt ended is not one that the unit refused.
-                    interrupts.check()
-                    raise self._refused(refusal.status, length) from None
+            self._make(length, final)
             if until is not None:
                 self._origin, self._length, self._count = until, 0.0, 0
                 self.time = until
@@ -349,9 +344,29 @@ class Unit:
             self._count += 1
             self.time = self._origin + self._count * length
 
+    def _make(self, length: float, final: Any) -> None:
+        """Makes a step; an interrupt that comes meanwhile ends it and acts."""
+        self._ended = False
+        try:
+            with interrupts.ending(self._cancel):
+                self.slave.doStep(self.time, length, final)
+        except FMICallException as refusal:
+            if refusal.status == _PENDING and self._waited():
+                return
+            interrupts.check()
+            if self._ended and interrupts.is_main():
+                # The interrupt has acted already: it came late, and was meant for an earlier step.
+                self._make(length, final)
+                return
+            raise self._refused(refusal.status, length) from None
+
     def _cancel(self) -> None:
         """Ends the step that is under way in another thread. Only our own units are sure to allow it."""
-        if str(self.description.generationTool).startswith("cograin"):
+        # A step that has just ended by itself is not there to be ended.
+        with suppress(FMICallException):
+            if not str(self.description.generationTool).startswith("cograin"):
+                return
+            self._ended = True
             self.slave.fmi2CancelStep(self.slave.component)
 
     def _waited(self) -> bool:

@@ -195,6 +195,73 @@ def test_a_stiff_side_in_several_directions_is_solved_or_said_not_to_be():
         assert "displacements differ by" in str(told)
 
 
+class Bed(Contact):
+    """Contacts of a plate with a bed, with friction: as many as the plate has nodes, each of its own stiffness."""
+
+    def __init__(self, count, stiffness):
+        super().__init__(stiffness, 0.0)
+        rng = np.random.default_rng(0)
+        self.stiffness = stiffness * rng.uniform(0.3, 3.0, count)
+        self.gap = rng.uniform(-2e-4, 1e-4, count)
+        self.names = [f"plate.mapped[{number}]" for number in range(3 * count)]
+        self.displacement = self.before = np.zeros(3 * count)
+
+    def at(self, displacement):
+        moved = displacement.reshape(-1, 3)
+        pressed = np.maximum(0.0, -moved[:, 2] - self.gap)
+        found = np.zeros_like(moved)
+        found[:, 2] = self.stiffness * (pressed / 1e-4) ** 1.5 * 1e-4
+        sheared = -0.5 * (self.stiffness * (pressed > 0.0))[:, None] * moved[:, :2]
+        size = np.maximum(np.linalg.norm(sheared, axis=1), 1e-300)
+        found[:, :2] = sheared * np.minimum(1.0, 0.3 * found[:, 2] / size)[:, None]
+        return found.ravel()
+
+    def force(self, kind):
+        return self.at(self.displacement)
+
+
+@pytest.mark.parametrize("stiffness", [1e3, 1e4])
+def test_a_light_block_of_elements_takes_no_more_evaluations_than_with_aitken(stiffness):
+    skfem = pytest.importorskip("skfem")
+    from skfem.helpers import dot
+    from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+    mesh = skfem.MeshHex.init_tensor(*[np.linspace(0.0, 0.1, 4)] * 2, np.linspace(0.0, 0.05, 3))
+    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementHex1()))
+    elastic = skfem.asm(linear_elasticity(*lame_parameters(1e6, 0.3)), basis)
+    mass = 50.0 * skfem.asm(skfem.BilinearForm(lambda u, v, w: dot(u, v)), basis)
+    below, above = np.flatnonzero(mesh.p[2] < 1e-9), np.flatnonzero(mesh.p[2] > 0.05 - 1e-9)
+    at, load = basis.nodal_dofs[:, below].T.ravel(), np.zeros(basis.N)
+    load[at[2::3]] = -2.0
+
+    def evaluations(exchange):
+        block = Structure(mass, elastic, 2e-4 * elastic, at=at, fixed=basis.nodal_dofs[:, above].ravel(),
+                          load=lambda time: load * np.sin(150.0 * time))  # fmt: skip
+        record = couple(Bed(len(below), stiffness), block, exchange, step=1e-3, end=0.01, progress=False)
+        assert not record.unconverged
+        return record["evaluations"]
+
+    several, one = evaluations(QuasiNewton()), evaluations(Aitken())
+    assert several.mean() <= one.mean() and several.max() <= one.max()
+
+
+@pytest.mark.parametrize("exchange", [Jacobi, GaussSeidel])
+def test_an_exchange_that_makes_energy_says_so(drop, exchange, caplog):
+    def run(mass, chosen):
+        drop.reset()
+        caplog.clear()
+        plate = Oscillator(mass, 1e4)
+        plate.place(velocity=0.05)
+        return couple(Interface(drop, FLOOR), plate, chosen, step=1e-3, end=0.1, progress=False)
+
+    # A tenth of the ball's mass.
+    record = run(0.13, exchange())
+    assert "the exchange made" in record.summary and "the exchange made" in caplog.text
+    assert "do not trust the motion" in record.remark
+    for quiet in (run(0.13, Secant()), run(100.0, Verlet())):
+        assert not quiet.remark and "the exchange made" not in quiet.summary and not caplog.records
+
+
 def test_a_jump_can_stop_a_run_or_be_accepted():
     plate = Oscillator(0.0, 1e3, load=lambda time: 3.0)
     with pytest.raises(CouplingStopped, match="force jumps"):

@@ -200,3 +200,104 @@ def test_components_of_a_quantity_without_unit_share_a_panel(tmp_path):
     panels = history(read_table(tmp_path / "cell.csv")).axes
     drawn = [{line.get_label() for line in panel.get_lines()} for panel in panels]
     assert drawn == [set(names[2:4]), set(names[:2]), {names[4]}]
+
+
+def test_a_package_that_is_missing_is_named_with_the_extra_that_brings_it(folder, monkeypatch, tmp_path, capsys):
+    import sys
+
+    from cograin.plot import main
+    from cograin.study import Study
+
+    study = Study({"x": [1]}, len, tmp_path / "study")
+    cases = {
+        "pandas": (Run(folder).history.to_pandas, "tables"),
+        "xarray": (Run(folder).history.to_xarray, "tables"),
+        "pyarrow": (lambda: study.save(tmp_path / "table.parquet"), "study"),
+    }
+    for module, (act, extra) in cases.items():
+        with monkeypatch.context() as patched:
+            patched.setitem(sys.modules, module, None)
+            with pytest.raises(ModuleNotFoundError, match=rf"{module}: not found; install cograin\[{extra}\]"):
+                act()
+    with monkeypatch.context() as patched:
+        patched.setitem(sys.modules, "matplotlib.figure", None)
+        assert main([str(folder)]) == 1
+    assert "not found; install cograin[plot]" in capsys.readouterr().err
+
+
+PAIR = """
+gravity = [0.0, 0.0, 0.0]
+[run]
+end = 0.001
+step = 1.0e-5
+[material.s]
+density = 2500.0
+[pair.s.s]
+normal_stiffness = 1.0e4
+normal_damping = 0.0
+[contact.touch.normal.hooke_stiffness]
+[clump.rod]
+spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }, { position = [0.01, 0.0, 0.0], radius = 0.01 }]
+[particles.p]
+material = "s"
+list = [{ position = [0.0145, 0.05, 0.05], radius = 0.01 }, { position = [0.106, 0.0678, 0.05], radius = 0.01 }]
+[particles.rods]
+material = "s"
+clump = "rod"
+list = [{ position = [0.06, 0.05, 0.05], radius = 0.02 }]
+[cell]
+edges = [[0.1, 0.0, 0.0], [0.02, 0.1, 0.0], [0.0, 0.0, 0.1]]
+[output]
+frame_interval = 1.0e-3
+contacts = true
+"""
+
+
+def test_force_chains_go_through_the_faces_of_a_cell(program, tmp_path):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import force_chains
+
+    (tmp_path / "scene.toml").write_text(PAIR)
+    program("run", tmp_path / "scene.toml", "-o", tmp_path / "out")
+    frame = Run(tmp_path / "out").frames[0]
+    assert len(frame.clumps) == 1 and len(frame.cell.cells) == 12
+    assert np.allclose(frame.edges, [[0.1, 0.0, 0.0], [0.02, 0.1, 0.0], [0.0, 0.0, 0.1]])
+    (lines,) = [each for each in force_chains(frame, "z").axes[0].collections if hasattr(each, "get_segments")]
+    lengths = [float(np.linalg.norm(end - begin)) for begin, end in lines.get_segments()]
+    # Two halves of one contact, at both faces; none goes through the packing.
+    assert len(lengths) == 2 and max(lengths) < 0.02
+
+
+def test_a_notebook_shows_tables_and_runs(folder):
+    shown = Run(folder)._repr_html_()
+    assert "<th>time [s]</th>" in shown and shown.count("<tr>") == 11 and "21 rows" in shown
+    assert "&lt;Run in" in shown
+
+
+def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
+    pytest.importorskip("pyvista")
+    image = pytest.importorskip("PIL.Image")
+    from cograin.view import main
+
+    def drawn(*words):
+        assert main([str(folder), "-o", str(tmp_path / "view.png"), *words]) == 0, capsys.readouterr().err
+        return np.asarray(image.open(tmp_path / "view.png").convert("RGB")).reshape(-1, 3)
+
+    pictures = [drawn(*words) for words in (["--by", "set"], ["--chains"], ["--pressure", "--view", "x"])]
+    for picture in pictures:
+        assert (picture.min(axis=1) < 245).mean() > 0.01, "more than the background"
+    assert (np.ptp(pictures[0], axis=1) > 60).any(), "sets have colours"
+    assert not np.array_equal(pictures[0], pictures[1])
+    assert main([str(folder), "-o", str(tmp_path / "film.gif")]) == 0
+    assert image.open(tmp_path / "film.gif").n_frames == len(Run(folder).frames)
+    for words in (["--by", "colour"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
+        assert main([str(folder), *words]) == 2
+    assert "expected one of radius" in capsys.readouterr().err
+
+
+def test_a_bed_at_rest_is_not_coloured_by_its_rounding():
+    from cograin.plot import _still
+    from cograin.results import Cloud
+
+    bed = Cloud(np.zeros((3, 3)), {"radius": np.full(3, 1e-3)})
+    assert _still(bed, 2.0) == 5e-6 and _still(bed, 0.0) == 0.0

@@ -1,0 +1,85 @@
+"""A partner that takes heat: capacities joined by conductances, of first order in time."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cograin.step import Step
+from cograin.structure import Load, Structure
+from cograin.vector import Vector, vector
+
+
+class HeatCapacity(Structure):
+    """C dT/dt + K (T − ambient) = heat flow of the particles + ``load``, in the temperatures T \\[K\\].
+
+    ``capacity`` \\[J/K\\] and ``conductance`` \\[W/K\\] are numbers, diagonals, or matrices, as finite elements give
+    them; ``at`` says which temperatures the interface has, as in a `Structure`. ``ambient`` \\[K\\] is where the
+    conductance leads, ``start`` \\[K\\] the temperature at time 0. ``load(time)`` are other heat flows \\[W\\].
+
+    It is coupled by ``Interface(unit, "floor.temperature")``: temperatures in, mean heat flows of the particles into
+    the boundary out. A step is that of a `Structure` without mass: the midpoint rule, of second order. What one side
+    gives, the other one takes, to rounding. Steps that are long against C/K let temperatures swing about their course.
+    The book is ``heat + load_heat = stored + lost``.
+    """
+
+    def __init__(
+        self,
+        capacity: ArrayLike | Any,
+        conductance: ArrayLike | Any = 0.0,
+        *,
+        start: ArrayLike = 0.0,
+        ambient: float = 0.0,
+        at: ArrayLike | None = None,
+        load: Load | None = None,
+        substeps: int = 1,
+    ) -> None:
+        super().__init__(0.0, conductance, capacity, at=at, load=self._flows, substeps=substeps)
+        if not (self.damping.diagonal() > 0.0).all():
+            raise ValueError("capacity: expected numbers above 0, found others")
+        self.ambient = float(ambient)
+        self._given = load
+        self._leading = vector(self.stiffness @ np.ones(len(self.free)))  # to the ambient [W/K]
+        self.heat = 0.0  # of the particles [J]
+        self.load_heat = 0.0  # of the load [J]
+        self.place(start)
+        self._first = self.position.copy()
+
+    @property
+    def temperature(self) -> Vector:
+        """Present temperatures \\[K\\]."""
+        return self.position.copy()
+
+    @property
+    def stored(self) -> float:
+        """Heat that it holds more than at time 0 \\[J\\]."""
+        return float((self.damping @ (self.position - self._first)).sum())
+
+    @property
+    def lost(self) -> float:
+        """Heat that went to the ambient, by the book \\[J\\]."""
+        return self.heat + self.load_heat - self.stored
+
+    def advance(self, force: Vector, displacement: Vector, step: Step) -> None:
+        """Makes the step under this mean heat flow, and then has this temperature of the interface."""
+        super().advance(force, displacement, step)
+        self.heat += step.length * float((self.at @ force).sum())
+        if self._given is not None:
+            for middle, length in self._parts(step):
+                self.load_heat += length * float(
+                    np.sum(np.broadcast_to(vector(self._given(middle)), self.position.shape))
+                )
+
+    def drift(self, force: Vector, step: Step) -> Vector:
+        """None: heat has no inertia."""
+        raise ValueError("HeatCapacity: velocity Verlet needs a mass; heat has none")
+
+    def memory(self) -> Any:
+        return {**super().memory(), "heat": self.heat, "load_heat": self.load_heat}
+
+    def _flows(self, time: float) -> Vector:
+        """Heat flows of load and ambient \\[W\\]."""
+        own = 0.0 if self._given is None else vector(self._given(time))
+        return vector(self._leading * self.ambient + own)

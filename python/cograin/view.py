@@ -1,0 +1,233 @@
+"""Pictures of a run in space: ``python -m cograin.view OUT``.
+
+`scene` gives a plotter of pyvista, so that a script can change, turn and save it:
+
+    from cograin.results import Run
+    from cograin.view import scene
+    scene(Run("out"), by="set", names={0: "glass", 1: "steel"}).screenshot("packing.png")
+
+Needs the extra ``view``. Without a display pictures are drawn off screen; where that fails, Linux needs a software
+renderer (Debian: libosmesa6 or libegl1 with libgl1).
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cograin.extras import needed
+from cograin.plot import FIELDS, _ends, _joined, _magnitude, _scale, _still
+from cograin.results import Cloud, Frame, ResultError, Run
+
+#: Directions from which a picture may be seen.
+DIRECTIONS = ("x", "y", "z", "isometric")
+#: Up to so many particles are drawn as fine spheres.
+FINE = 2000
+
+
+def scene(
+    run: Run,
+    frame: int = -1,
+    *,
+    by: str = "velocity",
+    names: Mapping[int, str] | None = None,
+    view: str = "isometric",
+    chains: bool = False,
+    pressure: bool = False,
+    scale: tuple[float, float] | None = None,
+) -> Any:
+    """A frame of a run: particles, surfaces where they are now, bonds, and the edges of a cell.
+
+    ``by`` is the field that colours the particles; ``names`` are those of its numbers, such as sets. ``chains`` draws
+    normal forces as tubes, the wider the larger, and particles as thin shells (needs ``[output] contacts``).
+    ``pressure`` colours facets by the pressure on them (needs ``[output] boundaries``).
+    """
+    frames = run.frames
+    if not frames:
+        raise ResultError(f"{run.folder}: expected frames; [output] frame_interval writes them")
+    if not -len(frames) <= frame < len(frames):
+        raise ResultError(f"frame: expected a number from 0 to {len(frames) - 1}, found {frame}")
+    chosen = frames[frame]
+    pyvista = needed("pyvista", "view")
+    plotter = pyvista.Plotter(off_screen=True, window_size=(1200, 900))
+    plotter.set_background("white")
+    particles = chosen.particles
+    if len(particles):
+        _particles(pyvista, plotter, particles, by, names or {}, scale, _still(particles, chosen.time), chains)
+    _surfaces(pyvista, plotter, chosen, pressure)
+    if (bonds := chosen.bonds) is not None and len(bonds) and len(particles):
+        _tubes(pyvista, plotter, bonds.points.reshape(-1, 2, 3), np.median(particles["radius"]) / 4.0, "#444444")
+    if (cell := chosen.cell) is not None and len(cell):
+        plotter.add_mesh(_lines(pyvista, cell.points.reshape(-1, 2, 3)), color="black", line_width=2)
+    if chains:
+        _chains(pyvista, plotter, chosen, particles)
+    plotter.add_text(f"t = {chosen.time:.4g} s", font_size=10, color="black")
+    _turned(plotter, view)
+    return plotter
+
+
+def _turned(plotter: Any, view: str) -> None:
+    """Looks along an axis, or from a corner."""
+    if view not in DIRECTIONS:
+        raise ResultError(f"view: expected one of {', '.join(DIRECTIONS)}, found {view}")
+    look = {"x": plotter.view_yz, "y": plotter.view_xz, "z": plotter.view_xy, "isometric": plotter.view_isometric}
+    look[view]()
+
+
+def _particles(
+    pyvista: Any,
+    plotter: Any,
+    particles: Cloud,
+    by: str,
+    names: Mapping[int, str],
+    scale: Any,
+    still: float,
+    thin: bool,
+) -> None:
+    """The particles as spheres, those of clumps, too, coloured by a field."""
+    if by == "set" and "set" not in particles.fields:
+        by = "material"  # a scene of one set does not number it
+    if by not in particles.fields:
+        raise ResultError(f"by: expected one of {', '.join(particles.fields)}, found {by}")
+    values = particles[by]
+    kinds = values.dtype.kind in "iu" and by not in ("id", "clump") and len(np.unique(values)) <= 20
+    cloud = pyvista.PolyData(particles.points)
+    cloud["radius"], cloud[by] = particles["radius"], values if kinds else _magnitude(values)
+    sides = 24 if len(particles) <= FINE else 10
+    ball = pyvista.Sphere(radius=1.0, theta_resolution=sides, phi_resolution=sides)
+    spheres = cloud.glyph(geom=ball, scale="radius", orient=False)
+    style: dict[str, Any] = {"opacity": 0.12 if thin else 1.0, "smooth_shading": True, "show_scalar_bar": not thin}
+    if kinds:
+        found = np.unique(values)
+        spheres[by] = np.searchsorted(found, spheres[by]).astype(float)
+        told = {float(place): names.get(int(kind), f"{by} {kind}") for place, kind in enumerate(found)}
+        style.update(annotations=told, n_colors=len(found), clim=(-0.5, len(found) - 0.5))
+        style["scalar_bar_args"] = {"title": by, "color": "black", "n_labels": 0}
+    else:
+        style.update(clim=scale or _scale(_magnitude(values)), cmap="viridis")
+        if scale is None and by == "velocity":
+            style["clim"] = (style["clim"][0], max(style["clim"][1], still))
+        unit = FIELDS.get(by, "1")
+        title = by if unit == "1" else f"{by} [{unit}]"
+        style["scalar_bar_args"] = {"title": title, "color": "black", "fmt": "%.3g"}
+    plotter.add_mesh(spheres, scalars=by, **style)
+
+
+def _surfaces(pyvista: Any, plotter: Any, frame: Frame, pressure: bool) -> None:
+    """The boundaries where they are at this time."""
+    surfaces = frame.boundaries
+    if surfaces is None or not len(surfaces):
+        if pressure:
+            raise ResultError("pressure: expected files of boundaries; [output] boundaries = true writes them")
+        return
+    faces = np.concatenate([np.concatenate([[len(cell)], cell]) for cell in surfaces.cells])
+    mesh = pyvista.PolyData(surfaces.points, faces)
+    if pressure:
+        mesh.cell_data["pressure"] = surfaces["normal_pressure"]
+        bar = {"title": "pressure [Pa]", "color": "black", "fmt": "%.3g", "position_y": 0.9}
+        plotter.add_mesh(mesh, scalars="pressure", cmap="magma_r", opacity=0.5, scalar_bar_args=bar)
+    else:
+        plotter.add_mesh(
+            mesh, color="#8899aa", opacity=0.15, show_edges=len(surfaces.cells) < 500, edge_color="#8899aa"
+        )
+
+
+def _lines(pyvista: Any, lines: Any) -> Any:
+    """Lines (n, 2, 3) as a mesh."""
+    return pyvista.line_segments_from_points(lines.reshape(-1, 3)) if len(lines) else pyvista.PolyData()
+
+
+def _tubes(pyvista: Any, plotter: Any, lines: Any, radius: float, colour: str) -> None:
+    """Lines (n, 2, 3) as tubes of one radius \\[m\\]."""
+    plotter.add_mesh(_lines(pyvista, lines).tube(radius=radius, n_sides=8), color=colour)
+
+
+def _chains(pyvista: Any, plotter: Any, frame: Frame, particles: Cloud) -> None:
+    """Normal forces as tubes, the wider the larger; through the faces of a cell to the images."""
+    contacts = frame.contacts
+    if contacts is None:
+        raise ResultError("chains: expected files of contacts; [output] contacts = true writes them")
+    if not len(contacts):
+        return
+    lines, force = _joined(*_ends(frame, particles, contacts), contacts["normal_force"], frame.edges)
+    largest = float(np.abs(force).max())
+    if not largest:
+        return
+    mesh = _lines(pyvista, lines)
+    share = np.repeat(np.sqrt(np.abs(force) / largest), 2)
+    mesh.point_data["width"] = np.median(particles["radius"]) * np.maximum(0.25 * share, 1e-3)
+    mesh.point_data["normal force [N]"] = np.repeat(force, 2)
+    tubes = mesh.tube(scalars="width", absolute=True, n_sides=8)
+    bar = {"title": "normal force [N]", "color": "black", "fmt": "%.3g"}
+    plotter.add_mesh(tubes, scalars="normal force [N]", cmap="viridis_r", scalar_bar_args=bar)
+
+
+def film(run: Run, path: str | Path, *, pause: float = 0.1, **named: Any) -> Path:
+    """Writes all frames as an animated GIF, with the same colours and from the same place."""
+    image = needed("PIL.Image", "view")
+    by = named.get("by", "velocity")
+    clouds = [frame.particles for frame in run.frames]
+    values = [_magnitude(cloud[by]) for cloud in clouds if len(cloud) and by in cloud.fields]
+    if values and "scale" not in named:
+        named["scale"] = _scale(np.concatenate(values))
+    pictures, camera = [], None
+    for number in range(len(clouds)):
+        plotter = scene(run, number, **named)
+        if camera is not None:
+            plotter.camera_position = camera
+        pictures.append(image.fromarray(plotter.screenshot(None, return_img=True)))
+        camera = plotter.camera_position
+        plotter.close()
+    pictures[0].save(Path(path), save_all=True, append_images=pictures[1:], duration=int(1000 * pause), loop=0)
+    return Path(path)
+
+
+def save(run: Run, path: str | Path, **named: Any) -> Path:
+    """Writes a picture (.png), a page that one can turn in a browser (.html), or a film of all frames (.gif)."""
+    path = Path(path)
+    if path.suffix not in (".png", ".html", ".gif"):
+        raise ResultError(f"{path}: expected a name that ends with .png, .html or .gif")
+    if path.suffix == ".gif":
+        named.pop("frame", None)
+        return film(run, path, **named)
+    plotter = scene(run, **named)
+    if path.suffix == ".png":
+        plotter.screenshot(path)
+    else:
+        for module in ("trame_pyvista", "nest_asyncio2"):
+            needed(module, "view")
+        plotter.export_html(path)
+    plotter.close()
+    return path
+
+
+def main(words: Iterable[str] | None = None) -> int:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="python -m cograin.view", description="Draws a frame of a run in space.")
+    parser.add_argument("source", type=Path, metavar="OUT", help="folder of cograin run")
+    parser.add_argument("-o", "--output", type=Path, help=".png, .html or .gif (all frames); default OUT/view.png")
+    parser.add_argument("--by", default="velocity", help="what colours the particles (default: velocity)")
+    parser.add_argument("--frame", type=int, default=-1, help="number of the frame (default: the last)")
+    parser.add_argument("--view", default="isometric", choices=DIRECTIONS, help="from where (default: isometric)")
+    parser.add_argument("--chains", action="store_true", help="normal forces of contacts as tubes")
+    parser.add_argument("--pressure", action="store_true", help="facets coloured by the pressure on them")
+    options = parser.parse_args(None if words is None else list(words))
+    named = {name: getattr(options, name) for name in ("by", "frame", "view", "chains", "pressure")}
+    try:
+        print(save(Run(options.source), options.output or options.source / "view.png", **named))
+    except ModuleNotFoundError as error:
+        print(error, file=sys.stderr)
+        return 1
+    except (ResultError, OSError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
