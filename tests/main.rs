@@ -57,4 +57,6 @@ mod suppressed_contacts;
 mod surface_courses;
 mod surfaces;
 mod told_forces;
+mod touching_starts;
 mod units;
+mod vibrating_bonds;

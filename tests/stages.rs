@@ -25,6 +25,8 @@ friction = 0.4
 [contact.all.normal.hertz]
 [contact.all.tangential.history]
 [contact.all.heat.constriction]
+[heat]
+from_losses = ["normal_damping", "tangential_damping", "sliding"]
 [output]
 energy = true
 losses = true
@@ -141,6 +143,7 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
                 && p.slot == q.slot
                 && p.owner == q.owner
                 && p.material == q.material
+                && p.declared == q.declared
                 && a.exchange == b.exchange
         }
         Part::Lists => a.neighbours == b.neighbours,
@@ -155,7 +158,7 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
                 && a.damping_force == b.damping_force
                 && a.damping_impulse == b.damping_impulse
         }
-        Part::Heat => a.heat == b.heat && p.declared == q.declared,
+        Part::Heat => a.heat == b.heat,
         Part::Speed => a.clock.speed == b.clock.speed && a.foresight == b.foresight,
     }
 }

@@ -1,7 +1,7 @@
 """Gathers the pages of the book into a folder, and looks at the links of the built book.
 
     tools/pages.py gather FOLDER    the pages of the tree, a page for each law, the table of contents
-    tools/pages.py check FOLDER     whether every link of the built pages leads to a page and an anchor
+    tools/pages.py check FOLDER     whether links of the built pages lead to a page and an anchor, and stars are symbols
 
 The page of a law is the doc comment of its type in `src/laws`: one sentence, the equation, the symbols, when it holds,
 the source. A file holds a law if it names one (`const NAME`), or documents a type with a table of symbols.
@@ -128,19 +128,23 @@ def gather(folder):
 
 
 def check(folder):
-    """The links of the built pages that lead nowhere."""
+    """What is wrong in the built pages: links that lead nowhere, and stars of symbols (E*²) taken for emphasis."""
     texts = {page.resolve(): page.read_text(encoding="utf-8") for page in folder.rglob("*.html")}
     anchors = {page: set(re.findall(r'\bid="([^"]*)"', text)) for page, text in texts.items()}
     broken = []
     for page, text in sorted(texts.items()):
         main = text.partition("<main>")[2].partition("</main>")[0]
+        name = page.relative_to(folder.resolve())
+        broken += [
+            f"{name}: write \\* in front of {taken}" for taken in re.findall(r"<em>([^A-Za-zÀ-ÿΑ-ω<][^<]*)", main)
+        ]
         for link in map(html.unescape, re.findall(r'(?:href|src)="(?!\w+:)([^"]*)"', main)):
             target, _, anchor = link.partition("#")
             place = (page.parent / target).resolve() if target else page
             if place.is_relative_to(folder.resolve() / "code"):  # written by `cargo doc`
                 continue
             if not place.exists() or (anchor and anchor not in anchors.get(place, {anchor})):
-                broken.append(f"{page.relative_to(folder.resolve())}: {link}")
+                broken.append(f"{name}: {link} leads nowhere")
     return broken
 
 
@@ -148,5 +152,5 @@ if __name__ == "__main__":
     task, place = sys.argv[1], Path(sys.argv[2])
     if task == "gather":
         gather(place)
-    elif nowhere := check(place):
-        sys.exit("\n".join(["links that lead nowhere:", *nowhere]))
+    elif broken := check(place):
+        sys.exit("\n".join(broken))

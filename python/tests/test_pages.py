@@ -38,11 +38,12 @@ def test_links_of_the_table_of_contents_lead_to_pages(pages, tmp_path):
     assert len(links) == len(set(links)) > 100
 
 
-def test_links_that_lead_nowhere_are_told(pages, tmp_path):
-    page = '<main><h1 id="top">T</h1><a href="#top"></a><a href="b.html#no"></a><img src="c.png"></main>'
+def test_links_that_lead_nowhere_and_stars_taken_for_emphasis_are_told(pages, tmp_path):
+    page = '<main><h1 id="top">T</h1><a href="#top"></a><a href="b.html#no"></a><img src="c.png"><em>²/E</em></main>'
     (tmp_path / "a.html").write_text(page, encoding="utf-8")
     (tmp_path / "b.html").write_text('<main><a href="a.html#top"></a></main>', encoding="utf-8")
-    assert pages.check(tmp_path) == ["a.html: b.html#no", "a.html: c.png"]
+    told = ["a.html: write \\* in front of ²/E", "a.html: b.html#no leads nowhere", "a.html: c.png leads nowhere"]
+    assert pages.check(tmp_path) == told
 
 
 def test_crate_wheel_and_citation_state_one_version():

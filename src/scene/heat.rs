@@ -3,7 +3,7 @@
 use super::{AxisMotion, Boundary, Cell, ContactLaw, NodeMotion, SceneDraft};
 use crate::base::document::Mistake;
 use crate::laws::column::TEMPERATURE;
-use crate::laws::contact::{MaterialPair, Missing};
+use crate::laws::contact::{LossKind, MaterialPair, Missing, Warming};
 use std::collections::BTreeSet;
 
 /// The temperature of a boundary.
@@ -42,6 +42,15 @@ impl BoundaryTemperature {
 pub struct HeatSettings {
     /// Whether heat flows while nothing moves.
     pub frozen: bool,
+    /// Which losses of contacts warm the bodies, half each.
+    pub from_losses: Warming,
+}
+
+impl HeatSettings {
+    /// Whether losses warm the bodies.
+    pub(crate) fn warms(&self) -> bool {
+        self.from_losses != Warming::default()
+    }
 }
 
 /// `[heat_source.<name>]`: what warms or cools each of some particles.
@@ -84,7 +93,10 @@ impl SceneDraft {
     /// Whether bodies have a temperature.
     pub fn has_heat(&self) -> bool {
         let bonds = self.bonds.iter().any(|bond| bond.keys.conductivity.is_some());
-        bonds || !self.heat_sources.is_empty() || self.contacts.iter().any(|law| law.heat.is_some())
+        bonds
+            || self.heat.warms()
+            || !self.heat_sources.is_empty()
+            || self.contacts.iter().any(|law| law.heat.is_some())
     }
 
     /// Temperatures of the particles at the start, where heat flows \[K\].
@@ -152,6 +164,20 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
     }
     if let Some(insertion) = scene.insertions.first().filter(|_| scene.heat.frozen) {
         refuse(format!("insertion.{}", insertion.name), "", "nothing moves in a scene with [heat] frozen = true");
+    }
+    if scene.heat.frozen && scene.heat.warms() {
+        refuse("heat".to_owned(), "from_losses", "nothing moves in a scene with [heat] frozen = true");
+    }
+    let holds = |law: &&ContactLaw| law.choice.rolling.row().history().is_some();
+    if let Some(law) = scene.contacts.iter().find(holds).filter(|_| scene.heat.from_losses[LossKind::Rolling as usize])
+    {
+        let (name, model) = (&law.name, law.choice.rolling.name());
+        let message = format!(
+            "expected losses that are heat at once, found \"rolling\": the rolling model {model} of [contact.{name}] is a spring, which \
+             holds part of it"
+        );
+        found.push(("heat".to_owned(), "from_losses", Mistake::Refused { message }));
+        return found;
     }
     if scene.heat.frozen {
         let moves = |boundary: &&Boundary| {

@@ -166,6 +166,8 @@ pub struct Run {
     pub scheme: Scheme,
     /// Whether a given step above the stable one may run on.
     pub allow_unstable: bool,
+    /// Whether a run stops where the stable step falls below a given one, instead of dividing it.
+    pub strict_step: bool,
     /// Threads; `None`: as many as the machine offers.
     pub threads: Option<usize>,
     /// Seed of everything random.
@@ -194,6 +196,7 @@ impl Default for Run {
             accuracy: Accuracy::Standard,
             scheme: Scheme::default(),
             allow_unstable: false,
+            strict_step: false,
             threads: None,
             seed: 1,
             skin: None,

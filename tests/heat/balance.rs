@@ -59,6 +59,25 @@ fn what_particles_gain_is_what_boundaries_and_sources_give() {
 }
 
 #[test]
+fn particles_that_come_and_go_take_their_heat_along() {
+    let text = pile("temperature = 500.0", 100.0)
+        + "[region.above]\nbox = [[0.0, 0.0, 0.02], [0.01, 0.01, 0.03]]\n[region.side]\nbox = [[0.0, -0.01, -0.01], [0.003, 0.02, 0.03]]\n\
+           [insertion.rain]\nregion = \"above\"\nmaterial = \"stone\"\nsizes = { radius = 1.0e-3 }\ncount_rate = 2.0e3\n\
+           velocity = [0.0, 0.0, -2.0]\ntemperature = 700.0\n[outlet.out]\nregion = \"side\"\n";
+    let mut simulation = start(&text);
+    simulation.advance(4e-3).unwrap();
+    simulation.advance(6e-3).unwrap();
+    let state = simulation.state();
+    let (heat, exchange) = (state.heat.as_ref().unwrap(), state.exchange.as_ref().unwrap());
+    assert!(exchange.feeds[0].came.count > 5 && heat.departed != 0.0, "{:e} J departed", heat.departed);
+    let residual = heat.energy() + heat.boundaries[0].heat();
+    assert!(residual.abs() < 1e-13 * heat.boundaries[0].heat().abs(), "{residual:e} J");
+    let newest = state.particles.slot_of((state.particles.slot.len() - 1) as u32).unwrap();
+    let column = simulation.scene().column("temperature").unwrap();
+    assert!(state.particles.declared[column][newest] > 500.0);
+}
+
+#[test]
 fn small_heats_do_not_drown_in_three_hundred_kelvin() {
     let run = |rise: f64| {
         let mut simulation = start(&pile(&format!("temperature = {{ driven = {:?} }}", 300.0), 0.0));

@@ -1,7 +1,10 @@
 //! Heat between particles, and between particles and boundaries.
 
 mod balance;
+mod bodies;
 mod boundaries;
+mod inputs;
+mod losses;
 mod network;
 mod refused;
 mod same_bits;

@@ -58,7 +58,7 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
         damping: damping(case, &particles)?,
         forces: forces(case, &index_of)?,
         columns: heat::columns(case)?,
-        heat: HeatSettings { frozen: case.frozen },
+        heat: HeatSettings { frozen: case.frozen, ..HeatSettings::default() },
         heat_sources: heat::sources(case, &index_of)?,
         particles,
         ..SceneDraft::default()

@@ -1,6 +1,5 @@
 //! How a simulation comes into being: built from a scene, or taken over with a state of it.
 
-use super::repeats::Repeats;
 use super::rollback::Rollback;
 use super::stages::Stages;
 use super::{RunError, Simulation, Workspace, assemble};
@@ -69,7 +68,6 @@ impl Simulation {
             state,
             workspace,
             rollback: Rollback::default(),
-            repeats: Repeats::default(),
             stop: None,
             watch: None,
         };
@@ -129,6 +127,9 @@ impl Simulation {
 
     /// Largest speed of what forces move, at the middle of a step of this length \[s\], from rest or not \[m/s\].
     fn coming_speed(&self, step: f64) -> f64 {
+        if self.scene.heat.frozen {
+            return 0.0;
+        }
         let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
         let clumps = clumps::coming_speed(&self.state.clumps, step);
         integration::coming_speed(&self.state.particles, step).max(groups).max(clumps)

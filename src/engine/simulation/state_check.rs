@@ -32,6 +32,7 @@ impl Simulation {
             state.particles.orientation.len() == count || !self.passes.iter().any(|it| it.needs_orientations());
         demand(orientations, "orientation", state.particles.orientation.len(), "one for each particle")?;
         let step = match self.scene.run.step {
+            Step::Given(step) if self.divides() => state.clock.step > 0.0 && state.clock.step <= step,
             Step::Given(step) => state.clock.step == step,
             Step::Automatic { .. } | Step::Following => (0.0..f64::INFINITY).contains(&state.clock.step),
         };

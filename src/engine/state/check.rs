@@ -200,17 +200,23 @@ impl Clock {
         all_finite(&numbers, "clock")?;
         let lengths = self.step > 0.0 && self.last_step >= 0.0 && self.stable > 0.0 && self.speed >= 0.0;
         demand(lengths, "clock", 0, "a step above 0 and a speed of 0 or above")?;
-        demand(self.steps < MOST && self.rebuilds < MOST, "clock", 1, "a count that can be reached")
+        demand(
+            [self.steps, self.rebuilds, self.divided].iter().all(|count| *count < MOST),
+            "clock",
+            1,
+            "a count that can be reached",
+        )
     }
 }
 
 impl Underway {
     /// Whether this can be one.
     fn check(&self) -> Result<(), StateFault> {
-        let Self { done, count, step, passed, length, boundary_speed } = *self;
+        let Self { begun, done, count, step, passed, length, boundary_speed } = *self;
         all_finite(&[step, passed, length, boundary_speed], "underway")?;
         let lengths = step > 0.0 && length > 0.0 && (0.0..1.0).contains(&passed) && boundary_speed >= 0.0;
         demand(lengths, "underway", 0, "steps above 0 and a share from 0 to 1")?;
+        demand(begun < MOST, "underway", 2, "a count that can be reached")?;
         demand(done < count, "underway", 1, "time steps that are left")
     }
 }
@@ -231,9 +237,9 @@ impl Foresight {
 impl Pace {
     /// Whether this can be one.
     fn check(&self) -> Result<(), StateFault> {
-        let Self { share, packed, whole_at, until, rebuilds, speed } = *self;
+        let Self { share, packed, whole_at, until, rebuilds, speed, vibration } = *self;
         demand((0.0..=1.0).contains(&share), "pace", 0, "a share from 0 to 1")?;
-        demand(packed >= 0.0 && speed >= 0.0 && until >= 0.0, "pace", 1, "numbers of 0 or above")?;
+        demand([packed, speed, until, vibration].iter().all(|it| *it >= 0.0), "pace", 1, "numbers of 0 or above")?;
         demand(whole_at < MOST && rebuilds < MOST, "pace", 2, "a count that can be reached")
     }
 }

@@ -32,11 +32,28 @@ pub struct Heat {
     pub departed: f64,
     /// What heat sources gave since counting began \[J\].
     pub given: f64,
+    /// What losses gave since counting began \[J\].
+    pub by_losses: f64,
+    /// Heat that losses give to what stands in each slot in the present time step \[J\]; empty between time steps.
+    #[serde(skip)]
+    pub of_losses: Vec<f64>,
     /// Largest sum of the conductances of a body over its heat capacity at the present time \[1/s\].
     pub rate: f64,
 }
 
-clone_in_place!(Heat { initial, capacity, gained, flow, boundaries, numbers, departed, given, rate });
+clone_in_place!(Heat {
+    initial,
+    capacity,
+    gained,
+    flow,
+    boundaries,
+    numbers,
+    departed,
+    given,
+    by_losses,
+    of_losses,
+    rate
+});
 
 /// Temperature of a boundary, and heat that the particles gave to it. Zeros where it has no temperature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -63,6 +80,9 @@ pub struct BoundaryHeat {
     pub mean_flow: f64,
     /// Heat from the outside into what has a capacity since counting began \[J\].
     pub applied: f64,
+    /// Heat that losses give to it in the present time step \[J\]; 0 between time steps.
+    #[serde(skip)]
+    pub of_losses: f64,
 }
 
 impl BoundaryHeat {
@@ -94,6 +114,13 @@ impl Heat {
         self.gained.iter().sum::<f64>() + self.departed
     }
 
+    /// Begins to collect heat of losses, for so many slots.
+    pub(crate) fn collect(&mut self, slots: usize) {
+        self.of_losses.clear();
+        self.of_losses.resize(slots, 0.0);
+        self.boundaries.iter_mut().for_each(|boundary| boundary.of_losses = 0.0);
+    }
+
     /// Counts heat from here.
     pub(super) fn begin_counting(&mut self) {
         for index in 0..self.gained.len() {
@@ -104,7 +131,7 @@ impl Heat {
             boundary.initial = boundary.temperature();
             (boundary.rise, boundary.before, boundary.present, boundary.applied) = (0.0, 0.0, 0.0, 0.0);
         }
-        (self.given, self.departed) = (0.0, 0.0);
+        (self.given, self.by_losses, self.departed) = (0.0, 0.0, 0.0);
     }
 
     /// Whether it can be that of a scene of which `other` is, with so many indices of particles; `stay`: no particle comes or goes.
@@ -120,7 +147,7 @@ impl Heat {
             let given = [it.initial, it.rise, it.capacity, it.target, it.target_rate, start, end];
             given.into_iter().chain([it.flow, it.before, it.present, it.mean_flow, it.applied])
         });
-        let numbers: Vec<f64> = numbers.chain([self.given, self.departed, self.rate]).collect();
+        let numbers: Vec<f64> = numbers.chain([self.given, self.by_losses, self.departed, self.rate]).collect();
         all_finite(&numbers, "heat")?;
         let same = boundaries.iter().zip(&other.boundaries).map(|(it, other)| it.capacity == other.capacity);
         demand_all(same, "heat", "the heat capacities of the boundaries")

@@ -12,7 +12,9 @@ pub(crate) fn takes_heat(boundary: &Boundary) -> bool {
 /// Begins a communication step of this length \[s\]: inputs now know where they go.
 pub(crate) fn begin(heat: Option<&mut Heat>, interval: f64) {
     for boundary in heat.into_iter().flat_map(|heat| &mut heat.boundaries) {
-        let from = boundary.course[1];
+        // A step that ended early left the temperature on its way.
+        let arrived = boundary.rise == boundary.course[1] - boundary.initial;
+        let from = if arrived { boundary.course[1] } else { boundary.temperature() };
         boundary.target += boundary.target_rate * interval;
         // A heat flow from the outside acts at once, a temperature is reached at the end.
         let start = if boundary.capacity > 0.0 { boundary.target - boundary.target_rate * interval } else { from };

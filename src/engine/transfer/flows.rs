@@ -141,6 +141,22 @@ impl Flows {
         self.flows[slot as usize][1] += conductance;
     }
 
+    /// Adds what losses gave in a time step of this length \[s\].
+    pub(super) fn take_losses(&mut self, heat: Option<&mut Heat>, step: f64) {
+        let Some(heat) = heat else { return };
+        let mut sum = 0.0;
+        for ([flow, _], given) in self.flows.iter_mut().zip(&heat.of_losses) {
+            *flow += given / step;
+            sum += given;
+        }
+        for ([flow, _], boundary) in self.into_boundaries.iter_mut().zip(&heat.boundaries) {
+            *flow += boundary.of_losses / step;
+            sum += boundary.of_losses;
+        }
+        heat.by_losses += sum;
+        heat.collect(0);
+    }
+
     /// Adds what flows into images to their particles, then what flows into spheres of clumps and particles of groups to what has their
     /// temperature.
     pub(super) fn gather(&mut self, state: &State) {

@@ -41,6 +41,11 @@ pub(crate) fn temperature(state: &State, slot: usize) -> Option<f64> {
     })
 }
 
+/// Specific heat of the particle in a slot, where heat flows \[J/(kg K)\].
+pub(crate) fn specific_heat(scene: &Scene, state: &State, slot: usize) -> f64 {
+    scene.materials[state.particles.material[slot] as usize].thermal.specific_heat.unwrap_or(0.0)
+}
+
 impl Transfer {
     /// What conducts in a scene, if anything does.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
@@ -61,6 +66,8 @@ impl Transfer {
         context: &Context,
     ) {
         self.conduct((scene, passes), state, context);
+        self.flows.take_losses(state.heat.as_mut(), progress.step);
+        self.flows.gather(state);
         let given = self.sources(scene, state, progress.step);
         let Some(heat) = &mut state.heat else { return };
         heat.given += given;
@@ -71,8 +78,10 @@ impl Transfer {
     /// Finds the conductances of the present network, of which follows how long a time step may be; nothing flows.
     pub(crate) fn look(&mut self, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &mut State, context: &Context) {
         self.conduct((scene, passes), state, context);
+        self.flows.gather(state);
         self.sources(scene, state, 0.0);
         if let Some(heat) = &mut state.heat {
+            heat.collect(0);
             self.flows.integrate(&state.particles, heat, 0.0, context);
             heat.flow.fill(0.0);
             heat.boundaries.iter_mut().for_each(|boundary| boundary.flow = 0.0);
@@ -103,7 +112,6 @@ impl Transfer {
                 }
             });
         }
-        self.flows.gather(state);
     }
 
     /// Adds what heat sources give. Returns the heat of a time step \[J\].
@@ -139,8 +147,8 @@ pub(crate) fn longest_step(heat: Option<&Heat>) -> f64 {
     heat.map_or(f64::INFINITY, |heat| 1.0 / heat.rate)
 }
 
-/// Heat that is not accounted for: what particles gained, less what boundaries and sources gave \[J\].
+/// Heat that is not accounted for: what particles gained, less what boundaries, sources and losses gave \[J\].
 pub(crate) fn residual(heat: &Heat) -> f64 {
     let boundaries: f64 = heat.boundaries.iter().map(|boundary| boundary.heat()).sum();
-    heat.energy() + boundaries - heat.given
+    heat.energy() + boundaries - heat.given - heat.by_losses
 }

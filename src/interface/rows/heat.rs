@@ -137,8 +137,8 @@ pub(super) static OF_HEAT: [Row; 2] = [
     },
     Row {
         name: "energy.heat_residual",
-        description: "heat that particles and clumps gained and gave to boundaries since the start, less what heat sources gave: \
-                      rounding",
+        description: "heat that particles and clumps gained and gave to boundaries since the start, less what heat sources and \
+                      losses gave: rounding",
         quantity: Quantity::Energy,
         follows_inputs_at_start: false,
         exists: |scene, _| scene.has_heat(),

@@ -36,7 +36,7 @@ pub(crate) use coefficients::coefficients;
 pub use law::Offset;
 pub use law::{Law, OFFSET};
 pub(crate) use losses::parting;
-pub use losses::{Booked, LossKind, Seen};
+pub use losses::{Booked, LossKind, Seen, Warming};
 pub use material::{Material, MaterialPair, Missing, PairProperties, Thermal};
 pub use model::{
     CohesionFunctions, CohesionModel, CohesionRow, HeatFunctions, HeatModel, HeatRow, Model, ModelRow, NormalFunctions,

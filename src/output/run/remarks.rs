@@ -2,6 +2,7 @@
 
 use crate::base::geometry::lattice::STRAINS;
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
+use crate::engine::state::Clock;
 use crate::interface::{Interface, MOST_COLUMNS};
 use crate::laws::contact::{Material, MaterialPair, PairProperties};
 use crate::scene::exchange::Amount;
@@ -65,6 +66,12 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
         let found = if stable.is_finite() { format!(" ({stable:.3e} s as last found)") } else { String::new() };
         return Some(format!(
             "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one{found}; its numbers are worth nothing then"
+        ));
+    }
+    let Clock { divided, steps, .. } = simulation.state().clock;
+    if divided > 0 {
+        return Some(format!(
+            "[run] step: {divided} of {steps} time steps were made shorter than {step:e} s, as the stable one fell below that ({stable:.3e} s as last found)"
         ));
     }
     (step > NEAR_THE_BOUND * stable).then(|| {

@@ -174,9 +174,15 @@ impl RigidBody {
 
     /// The acceleration that its present load gives to its points this far from the point of reference \[m\], at most \[m/s²\].
     pub(crate) fn acceleration(&self, moved: &BoundaryState, extent: f64) -> f64 {
-        let [x, y, z, a, b, c] = [moved.inertial.load, moved.inertial.couple].concat()[..] else { return 0.0 };
+        let [along, about] = self.answer(moved);
+        along.length() + about.length() * extent
+    }
+
+    /// The acceleration of its point of reference \[m/s²\] and the angular one \[rad/s²\] that its present load gives.
+    pub(crate) fn answer(&self, moved: &BoundaryState) -> Motion {
+        let ([x, y, z], [a, b, c]) = (moved.inertial.load, moved.inertial.couple);
         let answer = self.mobility(moved) * Vector6::new(x, y, z, a, b, c);
-        answer.fixed_rows::<3>(0).norm() + answer.fixed_rows::<3>(3).norm() * extent
+        [Vector::new(answer[0], answer[1], answer[2]), Vector::new(answer[3], answer[4], answer[5])]
     }
 
     /// Which of its six freedoms are free.

@@ -112,6 +112,14 @@ const FORCES: &[Stage] = &[
         run: |it, _| it.begin_loads(),
     },
     Stage {
+        name: "heat of losses",
+        scenes: "losses that warm",
+        is_needed: |it| it.scene.heat.warms(),
+        reads: &[Particles],
+        writes: &[Heat],
+        run: |it, _| it.begin_heat_of_losses(),
+    },
+    Stage {
         name: "streaming motion",
         scenes: "periodic cell",
         is_needed: Simulation::is_cell_loaded,
@@ -124,7 +132,7 @@ const FORCES: &[Stage] = &[
         scenes: "contact laws",
         is_needed: |it| it.acts(Source::Contacts),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Books],
+        writes: &[Loads, Contacts, Books, Heat],
         run: |it, step| it.act(Source::Contacts, step),
     },
     Stage {
@@ -196,7 +204,7 @@ const FORCES: &[Stage] = &[
         scenes: "surfaces that particles may meet",
         is_needed: |it| it.acts(Source::Walls),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Boundaries, Books],
+        writes: &[Loads, Contacts, Boundaries, Books, Heat],
         run: |it, step| it.act(Source::Walls, step),
     },
     Stage {

@@ -16,7 +16,7 @@ coefficients! {
     /// | a      | contact radius, √(R* δ) unless normal model `jkr` | m | the contact                     |
     /// | k      | conductivity                               | W/(m K) | `conductivity` of both materials, or of the pair |
     ///
-    /// a is multiplied by (E*/E*₀)^(1/3) where materials have a `real_youngs_modulus`: bodies of E*₀ touch in this circle at the same
+    /// a is multiplied by (E\*/E\*₀)^(1/3) where materials have a `real_youngs_modulus`: bodies of E\*₀ touch in this circle at the same
     /// force. Holds for circles that are small beside the bodies, and for contacts that last longer than heat takes through one.
     ///
     /// Source: R. Holm, *Electric Contacts*; G. K. Batchelor & R. W. O'Brien, *Proc. R. Soc. Lond. A* 355 (1977) 313–333; W. L.

@@ -25,8 +25,8 @@ coefficients! {
     /// | r, δ   | distance of the centres, overlap | m    | the contact                                      |
     /// | k      | conductivity                  | W/(m K) | `conductivity` of both materials, or of the pair |
     ///
-    /// For small overlaps √A is √(2π) a: this conducts 2.5 times what `constriction` does. δ is multiplied by (E*/E*₀)^(2/3) where
-    /// materials have a `real_youngs_modulus`, which bodies of E*₀ have at the same force.
+    /// For small overlaps √A is √(2π) a: this conducts 2.5 times what `constriction` does. δ is multiplied by (E\*/E\*₀)^(2/3) where
+    /// materials have a `real_youngs_modulus`, which bodies of E\*₀ have at the same force.
     ///
     /// Source: LIGGGHTS-PUBLIC 3.8, `fix heat/gran/conduction` (projection takes the larger radius there); B. Chaudhuri,
     /// F. J. Muzzio & M. S. Tomassone, *Chem. Eng. Sci.* 61 (2006) 6348–6360.

@@ -17,7 +17,7 @@ coefficients! {
     /// | a      | contact radius, √(R* δ) unless normal model `jkr` | m  | the contact                 |
     /// | h      | heat transfer coefficient                  | W/(m² K) | `heat_transfer_coefficient` |
     ///
-    /// For surfaces whose roughness or coating resists more than the bodies do. a is multiplied by (E*/E*₀)^(1/3) as in `constriction`.
+    /// For surfaces whose roughness or coating resists more than the bodies do. a is multiplied by (E\*/E\*₀)^(1/3) as in `constriction`.
     ///
     /// Source: LAMMPS manual, `pair_style granular`, `heat area`.
     pub struct Transfer {

@@ -28,9 +28,7 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{
-    Accuracy, Cell, Derived, HeatSettings, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step,
-};
+use crate::scene::{Accuracy, Cell, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
 use crate::scene::{cell, clump, column};
 use finding::Finding;
 use particles::ReadParticles;
@@ -84,7 +82,7 @@ pub(super) fn scene(
         boundaries,
         damping,
         forces,
-        heat: HeatSettings { frozen: written.heat.frozen },
+        heat: written.heat.settings(),
         heat_sources,
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
@@ -146,6 +144,8 @@ impl SceneDraft {
 /// Reports what the parts of a scene are not to each other.
 fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let repeated = cell::repeat_surfaces(draft);
+    // Losses that warm are found by the book of losses.
+    draft.output.losses |= draft.heat.warms();
     let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
@@ -212,6 +212,17 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
             Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
         );
     }
+    let strict = match (table.strict_step, table.step, table.allow_unstable) {
+        (Some(true), None | Some(StepKey::Automatic), _) => {
+            Some(("an automatic step is never above the stable one", "give a step, or leave strict_step out"))
+        }
+        (Some(true), _, Some(true)) => Some(("strict_step beside allow_unstable", "one of them")),
+        _ => None,
+    };
+    if let Some((what, expected)) = strict {
+        let (what, expected) = (what.to_owned(), expected.to_owned());
+        faults.add("run", "strict_step", Mistake::InvalidCombination { what, expected });
+    }
     if table.plane_particles.is_some() && table.plane.is_none() {
         let (what, expected) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
         faults.add(
@@ -231,6 +242,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         accuracy,
         scheme: table.scheme.unwrap_or(accuracy.scheme()),
         allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
+        strict_step: table.strict_step.unwrap_or(defaults.strict_step),
         threads: table.threads.map(|threads| threads.get() as usize),
         seed: table.seed.unwrap_or(defaults.seed),
         skin: table.skin.map(crate::base::quantity::Positive::get),

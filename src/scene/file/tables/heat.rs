@@ -1,7 +1,9 @@
 //! Temperatures and heat sources, as the scene writes them.
 
 use crate::base::quantity::{Finite, NonNegative, Positive};
+use crate::laws::contact::LossKind;
 use crate::laws::surface::Selection;
+use crate::scene::HeatSettings;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -64,7 +66,47 @@ impl<'de> Deserialize<'de> for TemperatureKey {
 pub(in crate::scene::file) struct HeatTable {
     /// Whether heat flows while nothing moves.
     #[serde(default)]
-    pub(in crate::scene::file) frozen: bool,
+    frozen: bool,
+    /// Losses that warm the bodies.
+    #[serde(default)]
+    from_losses: Vec<WarmingLoss>,
+}
+
+impl HeatTable {
+    /// What it says.
+    pub(in crate::scene::file) fn settings(&self) -> HeatSettings {
+        let mut settings = HeatSettings { frozen: self.frozen, ..HeatSettings::default() };
+        for loss in &self.from_losses {
+            settings.from_losses[loss.kind() as usize] = true;
+        }
+        settings
+    }
+}
+
+/// A loss of contacts that is heat at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum WarmingLoss {
+    /// Dashpots along the normal.
+    NormalDamping,
+    /// Dashpots in the tangent plane.
+    TangentialDamping,
+    /// Friction at its limit.
+    Sliding,
+    /// Work against rolling torque.
+    Rolling,
+}
+
+impl WarmingLoss {
+    /// Its kind.
+    fn kind(self) -> LossKind {
+        match self {
+            Self::NormalDamping => LossKind::Normal,
+            Self::TangentialDamping => LossKind::Tangential,
+            Self::Sliding => LossKind::Sliding,
+            Self::Rolling => LossKind::Rolling,
+        }
+    }
 }
 
 /// `[heat_source.<name>]`

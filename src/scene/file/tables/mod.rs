@@ -67,6 +67,8 @@ pub(in crate::scene::file) struct RunTable {
     pub(in crate::scene::file) scheme: Option<Scheme>,
     /// Whether a given step above the stable one may run on.
     pub(in crate::scene::file) allow_unstable: Option<bool>,
+    /// Whether a run stops where the stable step falls below a given one.
+    pub(in crate::scene::file) strict_step: Option<bool>,
     /// Threads.
     pub(in crate::scene::file) threads: Option<NonZeroU32>,
     /// Seed of everything random.
