@@ -249,3 +249,13 @@ fn a_frame_of_an_earlier_version_without_the_cell_is_refused_by_name() {
     let told = refusal(&place, "", &format!("{edges}{}", again("first/particles_000001.vtu")));
     assert!(told.contains("found an array unwrapped of a periodic cell without the field cell"), "{told}");
 }
+
+#[test]
+fn a_seed_and_a_skin_that_nothing_reads_are_told() {
+    let place = Place::new("idle_numbers");
+    let told = second(&place, "seed = 3\nskin = 1e-4", SPHERES).unwrap().unread.clone();
+    assert_eq!(told.len(), 2, "{told:?}");
+    let packed =
+        "[particles.p]\nmaterial = \"g\"\npacking = { box = [[0, 0, 0], [0.1, 0.1, 0.1]], count = 3, radius = 0.01 }\n";
+    assert!(second(&place, "seed = 3", packed).unwrap().unread.is_empty());
+}
