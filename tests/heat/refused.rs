@@ -34,8 +34,17 @@ fn a_bed_at_rest_heats_for_an_hour_in_a_few_time_steps() {
 }
 
 #[test]
-fn a_given_step_above_it_is_refused_with_what_limits_it() {
-    let scene = crate::support::scene(&with_step("1.0e3"));
+fn a_given_step_above_it_is_divided() {
+    let mut simulation = start(&with_step("1.0e3"));
+    simulation.advance(1e3).unwrap();
+    let (steps, longest) = (simulation.state().clock.steps, capacity() / conductance(1e-5));
+    assert!(steps as f64 >= 1e3 / longest, "{steps} steps of at most {longest:e} s");
+    assert!((temperature(&simulation, 0) - 350.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_strict_step_above_it_is_refused_with_what_limits_it() {
+    let scene = crate::support::scene(&with_step("1.0e3\nstrict_step = true"));
     let refused = cograin::simulation::Simulation::new(scene).map(drop).unwrap_err().to_string();
     assert!(refused.contains("limited by the conduction of heat"), "{refused}");
 }
