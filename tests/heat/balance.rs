@@ -69,7 +69,7 @@ fn particles_that_come_and_go_take_their_heat_along() {
     simulation.advance(6e-3).unwrap();
     let state = simulation.state();
     let (heat, exchange) = (state.heat.as_ref().unwrap(), state.exchange.as_ref().unwrap());
-    assert!(exchange.feeds[0].count > 5 && heat.departed != 0.0, "{:e} J departed", heat.departed);
+    assert!(exchange.feeds[0].came.count > 5 && heat.departed != 0.0, "{:e} J departed", heat.departed);
     let residual = heat.energy() + heat.boundaries[0].heat();
     assert!(residual.abs() < 1e-13 * heat.boundaries[0].heat().abs(), "{residual:e} J");
     let newest = state.particles.slot_of((state.particles.slot.len() - 1) as u32).unwrap();
