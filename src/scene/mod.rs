@@ -147,6 +147,8 @@ pub struct SceneDraft {
     pub parameters: Vec<Parameter>,
     /// Fingerprint of the text, every file it names and the program's version; 0 for a scene built in code.
     pub fingerprint: u64,
+    /// The text and every file that it names, each with a fingerprint of its own; empty for a scene built in code.
+    pub parts: Vec<(String, u64)>,
     /// Keys of the text that nothing reads, and why.
     pub unread: Vec<String>,
 }

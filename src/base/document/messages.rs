@@ -4,14 +4,13 @@ use super::mistake::Mistake;
 use super::single::Error;
 
 /// What people look for under these names and this program does not have.
-const ABSENT: [(&[&str], &str, &str); 7] = [
+const ABSENT: [(&[&str], &str, &str); 5] = [
     (&["coarse_graining", "coarsegraining", "coarse_grain"], "coarse graining factors", "real radii"),
     (
         &["shape", "multisphere", "superquadric", "polyhedron", "ellipsoid", "aspect_ratio"],
-        "non-spherical bodies",
-        "spheres",
+        "non-spherical bodies but clumps",
+        "spheres or [clump.<name>]",
     ),
-    (&["nodes"], "deforming meshes", "rigid ones"),
     (
         &["emissivity", "radiation"],
         "radiation between bodies",
@@ -23,7 +22,6 @@ const ABSENT: [(&[&str], &str, &str); 7] = [
         "the heat sub-models of a contact law, which act where bodies touch",
     ),
     (&["thermal_expansion", "expansion_coefficient"], "thermal expansion", "radii that stay"),
-    (&["region", "regions"], "averaging regions", "outputs of boundaries"),
 ];
 
 /// The refusal of something that this program does not have.

@@ -15,12 +15,12 @@ mod value;
 pub use error::{SceneError, SceneErrors};
 pub(crate) use faults::Faults;
 pub use mistake::Mistake;
-pub(crate) use phrases::proposal;
+pub(crate) use phrases::{proposal, told_columns};
 pub(crate) use setting::apply;
 pub use setting::{Setting, SettingError};
 
 use attempt::Attempt;
-use foreign::looks_like;
+use foreign::{list_without_commas, looks_like};
 use serde::de::DeserializeOwned;
 use single::Error;
 use toml::Spanned;
@@ -64,9 +64,16 @@ impl<'a> Document<'a> {
             faults.at_line(None, "", "", mistake);
             return faults.finish().map(|()| document);
         }
+        let mut told = None;
         for error in errors {
             let line = error.span().map(|span| document.line(span.start));
-            let mistake = Mistake::Syntax { message: error.message().to_owned() };
+            let list = line.and_then(|line| list_without_commas(text.lines().nth(line - 1)?));
+            // All that is said of such a line follows from the one mistake.
+            if line.is_some() && line == told {
+                continue;
+            }
+            told = line.filter(|_| list.is_some());
+            let mistake = list.unwrap_or_else(|| Mistake::Syntax { message: error.message().to_owned() });
             faults.at_line(line, "", "", mistake);
         }
         faults.finish().map(|()| document)

@@ -11,7 +11,7 @@ use std::sync::Arc;
 
 impl Simulation {
     /// The scene at time 0 with particles, contacts, springs and bonds as in a state that was reached before:
-    /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
+    /// boundaries stand where the scene has them, along free axes and those of servos where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
         let State { particles, clumps, mut neighbours, contacts, walls, bonds, exchange, cell, heat, .. } = reached;
@@ -150,6 +150,10 @@ fn take_rates(state: &mut State, other: &State) {
 /// Leaves the free axes of a boundary where they have come to, and as fast as they are.
 fn stay(axes: &[AxisMotion; 6], begun: &mut BoundaryState, ended: &BoundaryState) {
     let is_free = |axis: usize| axes[axis].is_free();
+    for axis in (0..3).filter(|&axis| axes[axis].servo().is_some()) {
+        begun.displacement[axis] = ended.displacement[axis];
+        begun.pivot[axis] = ended.pivot[axis];
+    }
     for axis in (0..3).filter(|&axis| is_free(axis)) {
         begun.displacement[axis] = ended.displacement[axis];
         begun.velocity[axis] = ended.velocity[axis];

@@ -80,7 +80,7 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
 }
 
 /// On servos that press with another force than they are to, as a mean over the last interval.
-fn missed(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+pub(super) fn missed(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let mut missed = Vec::new();
     let largest = largest(simulation.state().boundaries.iter().flat_map(|moved| moved.mean_force));
     for (boundary, moved) in scene.boundaries.iter().zip(&simulation.state().boundaries) {

@@ -101,10 +101,12 @@ pub(super) struct Stages([Vec<&'static Stage>; Phase::ALL.len()]);
 impl Stages {
     /// Those of a simulation.
     pub(super) fn of(simulation: &Simulation) -> Self {
-        // Where the mechanics are frozen heat alone flows.
-        let runs = |stage: &Stage| !simulation.scene.heat.frozen || stage.writes == [Part::Heat];
-        let needed = |stage: &&Stage| (stage.is_needed)(simulation) && runs(stage);
-        Self(Phase::ALL.map(|phase| ROWS[phase as usize].iter().filter(needed).collect()))
+        // Where the mechanics are frozen heat alone flows, but forces are evaluated at the start: they tell what touches.
+        let frozen = simulation.scene.heat.frozen;
+        let runs = |phase, stage: &Stage| !frozen || phase == Phase::Forces || stage.writes == [Part::Heat];
+        let needed = |phase, stage: &Stage| (stage.is_needed)(simulation) && runs(phase, stage);
+        let of_phase = |phase| ROWS[phase as usize].iter().filter(|stage| needed(phase, stage)).collect();
+        Self(Phase::ALL.map(of_phase))
     }
 
     /// Those of a phase.

@@ -96,6 +96,7 @@ pub(super) fn scene(
         output: written.output,
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
+        parts: source.parts(),
         unread: faults.all_unread().to_vec(),
     };
     draft.parameters = parameters::of_scene(&draft, document);
@@ -113,7 +114,7 @@ fn cell_of(written: &RawTables, born: &ReadParticles, faults: &mut Faults) -> Op
     }
     for (table, file, around) in &born.boxes {
         if let Some([found, expected]) = cell::box_objection(cell.as_ref(), around) {
-            faults.in_file(file, Some(around.line), table, "", Mistake::Unexpected { found, expected });
+            faults.in_file(file, around.line, table, "", Mistake::Unexpected { found, expected });
         }
     }
     cell

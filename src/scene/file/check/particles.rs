@@ -52,6 +52,14 @@ pub(super) fn particles(
     let cell = written.cell.as_ref().and_then(|keys| keys.cell(None, &mut |_, _| {})).map(|cell| cell.lattice);
     let cell = cell.filter(|lattice| fault_of(lattice).is_none());
     let seed = written.run.seed.unwrap_or(Run::default().seed);
+    // Spheres of a packing, turned clumps and what comes are random.
+    let is_random = |(_, set): &(String, ParticlesTable)| set.packing.is_some() || set.clump.is_some();
+    if written.run.seed.is_some() && written.insertions.is_empty() && !written.particles.iter().any(is_random) {
+        faults.unread("run", "seed", "nothing of this scene is random");
+    }
+    if written.run.skin.is_some() && written.contacts.is_empty() && written.bonds.is_empty() {
+        faults.unread("run", "skin", "without contacts and bonds nothing looks for neighbours");
+    }
     let shape = written.run.plane_particles.unwrap_or_default();
     let mut born = ReadParticles::default();
     let before = faults.count();

@@ -13,7 +13,7 @@ use crate::laws::contact::Material;
 use crate::scene::Source;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::file::tables::{ListEntry, ParticlesTable, Triple};
-use crate::scene::import::{self, REPORTED, Request, Rows};
+use crate::scene::import::{self, Bodies, REPORTED, Request, Rows};
 use crate::scene::packing::{self, PackingProgress};
 use crate::scene::{Clump, ClumpShape, Particle, ParticleShape};
 use std::collections::BTreeMap;
@@ -190,8 +190,12 @@ impl SetReader<'_> {
     pub(super) fn read_file(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> Option<Rows> {
         let bytes = source.files.get(file)?;
         let ParticlesTable { format, units, timestep, .. } = *self.written;
-        let list = match import::read(bytes, &Request { file, extra, format, units, timestep }) {
-            Ok(rows) => return Some(rows),
+        let bodies = if self.written.clump.is_some() { Bodies::Clumps } else { Bodies::Particles(self.shape) };
+        let list = match import::read(bytes, &Request { file, bodies, extra, format, units, timestep }) {
+            Ok(rows) => {
+                faults.left_out(&self.table, file, &rows.left_out);
+                return Some(rows);
+            }
             Err(list) => list,
         };
         for fault in list {
@@ -285,12 +289,11 @@ impl SetReader<'_> {
             if self.written.material.is_none() && rows.count > 0 {
                 self.no_material(faults);
             }
-            if !self.written.materials.is_empty() {
-                let (what, expected) = ("the file names no materials or types", "leave it out");
-                let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
-                faults.add(&self.table, "materials", mistake);
-            }
+            self.refuse_materials(faults);
             return vec![self.fallback(faults)];
+        }
+        for (label, _) in self.written.materials.iter().filter(|(label, _)| !rows.labels.contains(label)) {
+            faults.unread(&self.table, &format!("materials.{label}"), &format!("{file} has none of it"));
         }
         let before = faults.count();
         let mut found = Vec::new();
@@ -316,6 +319,15 @@ impl SetReader<'_> {
             found.push(material);
         }
         found
+    }
+
+    /// Refuses materials by type of a file that has no types.
+    pub(super) fn refuse_materials(&self, faults: &mut Faults) {
+        if !self.written.materials.is_empty() {
+            let (what, expected) = ("the file names no materials or types", "leave it out");
+            let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
+            faults.add(&self.table, "materials", mistake);
+        }
     }
 
     /// A particle of which only this is known.
