@@ -117,7 +117,7 @@ pub(crate) struct SearchLimits {
     pub margin: f64,
     /// Two bodies come no nearer to each other than by this until the next look \[m\].
     pub way: f64,
-    /// Largest acceleration by gravity and applied forces and, of what moves by its load sooner than by its speed, by all loads \[m/s²\].
+    /// Largest acceleration by gravity and applied forces \[m/s²\].
     pub acceleration: f64,
     /// How much faster than now anything may become.
     pub faster: f64,

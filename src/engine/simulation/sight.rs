@@ -84,9 +84,7 @@ impl Simulation {
         let streaming = self.cell.as_ref().map_or(0.0, |cell| cell.speed(&self.state));
         let driven = boundaries.iter().copied().fold(streaming, f64::max);
         let answer = self.acceleration();
-        // What stands begins to move by its load, whatever that is; what moves has already done so.
-        let sudden = if answer * step > fastest { answer } else { 0.0 };
-        let acceleration = self.fields.acceleration(&self.state.particles).max(sudden);
+        let acceleration = self.fields.acceleration(&self.state.particles);
         let least = self.search.smallest_radius().min(f64::MAX);
         let mean = self.mean_overlap();
         // Strain comes whatever the bodies do.
