@@ -15,6 +15,9 @@ const PATIENCE: Duration = Duration::from_millis(1000);
 /// Wall time between two looks at the clock.
 const BETWEEN_LOOKS: f64 = 0.02;
 
+/// Time steps of a communication step of a scene that says no end.
+const WITHOUT_END: f64 = 1000.0;
+
 /// What the outputs of a kind cost, one of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct OutputCost {
@@ -83,24 +86,21 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
     let (mut counted, mut since) = (0, begun);
     let (mut late_time, mut late_particles) = (0.0, 0.0);
     let mut time = schedule.map_or(0.0, |(_, begins)| begins);
-    let mut at_once = 1.0;
+    let (mut at_once, mut interval) = (1.0, 0.0);
     while begun.elapsed() < patience || counted == 0 {
-        // Where nothing limits the step, any interval is a single one.
-        let piece = match simulation.stable_step().is_finite() {
-            true => at_once * simulation.state().clock.step,
-            false => simulation.scene().run.end.unwrap_or(1.0),
-        };
-        let point = schedule.map(|(schedule, _)| schedule.after(time));
-        let interval = match point {
-            // It goes on with the one that is under way.
-            _ if simulation.state().underway.is_some() => piece,
-            Some(None) => break,
-            Some(Some(point)) if point.interval <= piece => {
-                time = point.time;
-                point.interval
-            }
-            _ => piece,
-        };
+        // A communication step is as long as the run's: what its beginning costs counts as often as there.
+        if simulation.state().underway.is_none() {
+            interval = match schedule.map(|(schedule, _)| schedule.after(time)) {
+                Some(None) => break,
+                Some(Some(point)) => {
+                    time = point.time;
+                    point.interval
+                }
+                // Where nothing limits the step, any interval is a single one.
+                None if !simulation.stable_step().is_finite() => simulation.scene().run.end.unwrap_or(1.0),
+                None => WITHOUT_END * simulation.state().clock.step,
+            };
+        }
         let (looked, before) = (Instant::now(), simulation.state().clock.steps);
         // An interval may have any number of time steps: the clock is looked at within it, too.
         match simulation.advance_part(interval, at_once as u64) {
@@ -166,6 +166,19 @@ mod tests {
         let source = Source { name: "scene.toml".into(), text: text.into(), files: BTreeMap::new() };
         let mut simulation = Simulation::new(Arc::new(Scene::from_source(&source).unwrap())).unwrap();
         assert!(steps(&mut simulation, None, Duration::ZERO).steps > 1);
+    }
+
+    #[test]
+    fn a_trial_makes_the_communication_steps_of_the_run() {
+        let text = "[run]\nstep = 1e-9\nend = 1.0\nthreads = 1\n[material.a]\ndensity = 2500.0\n[particles.p]\nmaterial = \"a\"\n\
+                    list = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }]\n";
+        let source = Source { name: "scene.toml".into(), text: text.into(), files: BTreeMap::new() };
+        let scene = Arc::new(Scene::from_source(&source).unwrap());
+        let schedule = Schedule::new(&scene, "scene.toml", 1.0).unwrap();
+        let mut simulation = Simulation::new(scene).unwrap();
+        steps(&mut simulation, Some((&schedule, 0.0)), Duration::from_millis(20));
+        // The first one has 1e7 time steps.
+        assert!(simulation.state().underway.is_some());
     }
 
     #[test]
