@@ -3,7 +3,7 @@
 use crate::base::geometry::Lattice;
 use crate::base::number::Vector;
 use crate::base::quantity::{ParticleId, SetIndex};
-use crate::engine::clumps;
+use crate::engine::bodies::loads;
 use crate::engine::simulation::Simulation;
 use crate::scene::Probed;
 
@@ -64,7 +64,7 @@ fn particle(simulation: &Simulation, slot: usize) -> Sight {
         position: simulation.state().unwrapped(slot),
         velocity: three(particles.velocity[slot]),
         angular_velocity: three(particles.angular_velocity[slot]),
-        force: clumps::force_on(simulation.scene(), particles, slot),
+        force: loads::force_on(simulation.scene(), particles, slot),
         torque: three(particles.torque[slot]),
         ..Sight::default()
     }

@@ -8,7 +8,7 @@ use crate::base::lanes::Shared;
 use crate::base::number::{Vector, add};
 use crate::base::quantity::{BoundaryIndex, SetIndex};
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::RigidBody;
 use crate::engine::contacts::BondRecord;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::{Kind, Link, SearchLimits};

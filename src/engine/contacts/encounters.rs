@@ -7,7 +7,7 @@
 use super::listed::{Bodies, ContactEntries};
 use super::records::Motion;
 use crate::base::number::Vector;
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::RigidBody;
 use crate::engine::integration::Fields;
 use crate::engine::state::contacts::{TOUCHING, is_suppressed};
 use crate::engine::state::{State, WallContacts};

@@ -44,12 +44,12 @@ pub use taken_over::Description;
 
 use crate::base::lanes::Width;
 use crate::base::threads::{Context, Workers};
+use crate::engine::bodies::{ClumpBodies, RigidBody};
 use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
+use crate::engine::boundaries::nodes;
 use crate::engine::boundaries::passing::Passing;
-use crate::engine::boundaries::{RigidBody, nodes};
 use crate::engine::cell::Cell;
-use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy;

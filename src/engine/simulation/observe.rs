@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::base::number::Vector;
 use crate::base::threads::Context;
+use crate::engine::bodies;
 use crate::engine::cell::Fabric;
 use crate::engine::contacts::{BondRecord, ContactRecord, SLIGHT};
 use crate::engine::energy;
@@ -138,14 +139,8 @@ impl Simulation {
             sum += Vector::from(particles.force[slot]).length();
             count += 1;
         }
-        for (body, moved) in self.bodies.iter().zip(&self.state.boundaries) {
-            if let Some(body) = body.as_ref().filter(|body| body.moves != [false; 3]) {
-                sum += body.along_free(moved.inertial.load).length();
-                count += 1;
-            }
-        }
-        for force in &self.state.clumps.force {
-            sum += Vector::from(*force).length();
+        for body in bodies::each(&self.bodies, &self.state).filter(|body| body.moves != [false; 3]) {
+            sum += body.rigid.force.length();
             count += 1;
         }
         match self.mean_interaction() {

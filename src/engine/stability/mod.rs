@@ -18,8 +18,8 @@ mod shares;
 mod triangle;
 
 use crate::base::threads::Context;
-use crate::engine::boundaries::RigidBody;
-use crate::engine::clumps::ClumpBodies;
+use crate::engine::bodies::ClumpBodies;
+use crate::engine::bodies::RigidBody;
 use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{GONE, State};

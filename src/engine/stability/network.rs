@@ -1,8 +1,7 @@
 //! The network of springs and dashpots: contacts and bonds between the bodies that forces move.
 
 use crate::base::number::{Vector, binade};
-use crate::engine::boundaries::RigidBody;
-use crate::engine::clumps;
+use crate::engine::bodies::{self, RigidBody};
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{IMAGE, State};
@@ -146,31 +145,23 @@ pub(crate) struct Network<'a> {
 
 impl<'a> Network<'a> {
     /// The bodies without interactions.
-    pub(super) fn of_bodies(state: &'a State, bodies: &[Option<RigidBody>], fields: &Fields) -> Self {
+    pub(super) fn of_bodies(state: &'a State, rigid: &[Option<RigidBody>], fields: &Fields) -> Self {
         let particles = &state.particles;
         let root = |slot: usize| {
             let [linear, angular] = fields.amplification(particles.id[slot]);
             let (mass, inertia) = (particles.velocity[slot][3], particles.angular_velocity[slot][3]);
             [(linear / mass).sqrt(), (angular / inertia).sqrt()]
         };
-        let group = |(body, moved): (&Option<RigidBody>, _)| {
-            let body = body.as_ref().filter(|body| body.is_free())?;
-            let [linear, angular] = fields.amplification_of(body);
-            let factor = |row: usize| if row < 3 { linear } else { angular };
-            let mobility = body.mobility(moved).map_with_location(|row, _, part| part * factor(row));
-            Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
-        };
-        let groups = bodies.iter().zip(&state.boundaries).map(group);
-        let rigid = &state.clumps;
-        let clump = |index: usize| {
-            let root = clumps::root(rigid, index, clumps::amplification(rigid, index, fields));
-            Some(Group { pivot: Vector::from(rigid.position[index]), root })
-        };
-        let groups = groups.chain((0..rigid.len()).map(clump));
+        let mut groups: Vec<Option<Group>> = Vec::new();
+        groups.resize_with(state.boundaries.len() + state.clumps.len(), || None);
+        for body in bodies::each(rigid, state) {
+            let root = body.root(fields.amplification_of(body.members));
+            groups[body.number] = Some(Group { pivot: body.point, root });
+        }
         Self {
             state,
             roots: (0..particles.len()).map(root).collect(),
-            groups: groups.collect(),
+            groups: groups.into(),
             elements: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
@@ -207,7 +198,7 @@ impl<'a> Network<'a> {
     }
 
     /// The springs of bodies to the ground. Their dashpots do not limit the time step
-    /// ([`crate::engine::boundaries::rigid_body`]).
+    /// ([`crate::engine::bodies::boundary`]).
     pub(super) fn supports(&self, bodies: &[Option<RigidBody>]) -> Vec<(Element, [f64; 4])> {
         let mut supports = Vec::new();
         for (index, body) in bodies.iter().enumerate() {
@@ -390,11 +381,4 @@ fn most_links(state: &State) -> usize {
     let walls = state.walls.iter().map(|list| list.particle.len());
     let bonds = state.bonds.iter().map(|list| 2 * list.first.len());
     pairs.chain(walls).chain(bonds).sum()
-}
-
-/// L of the mobility L Lᵀ of a body (Cholesky); freedoms that do not move have zeros.
-fn root_of(mobility: &Matrix6<f64>) -> Matrix6<f64> {
-    // With ones in their place, freedoms that do not move have a root, too.
-    let still = Matrix6::from_diagonal(&mobility.diagonal().map(|part| if part > 0.0 { 0.0 } else { 1.0 }));
-    (mobility + still).cholesky().map_or(Matrix6::zeros(), |root| root.l() - still)
 }

@@ -17,7 +17,7 @@ use super::records::ContactRecord;
 use crate::base::lanes::{Shared, Width};
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::RigidBody;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, Entries};
 use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};

@@ -13,9 +13,10 @@ pub use description::Description;
 use super::{RunError, Simulation, assemble, number};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
-use crate::engine::boundaries::{nodes, placing, rigid_body};
+use crate::engine::bodies::boundary;
+use crate::engine::bodies::clumps;
+use crate::engine::boundaries::{nodes, placing};
 use crate::engine::cell::images;
-use crate::engine::clumps;
 use crate::engine::state::{State, StateFault};
 use crate::laws::bond::creation::Moment;
 use crate::scene::{CellMotion, Scene};
@@ -78,7 +79,7 @@ impl Simulation {
         simulation.give_orientations();
         let there: Vec<_> = simulation.state.particles.position.clone();
         let Self { scene, bodies, clumps, state, .. } = &mut simulation;
-        rigid_body::place_groups(scene, bodies, state);
+        boundary::place_groups(scene, bodies, state);
         if let Some(clumps) = clumps {
             clumps.place(state);
         }
