@@ -15,7 +15,7 @@ pub(crate) fn note(state: &mut State, bodies: &[Option<RigidBody>], source: Sour
     let Some(mut ledger) = state.ledger.take() else { return };
     let noted = &mut ledger.on_bodies[source as usize];
     noted.clear();
-    noted.resize(state.boundaries.len() + state.clumps.len(), [0.0; 6]);
+    noted.resize(state.owners(), [0.0; 6]);
     for body in each(bodies, state) {
         let [force, moment] = body.on_spheres(&state.particles);
         noted[body.number] = [force.x, force.y, force.z, moment.x, moment.y, moment.z];

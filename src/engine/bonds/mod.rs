@@ -130,7 +130,7 @@ impl BondPass {
             let ids = [particles.id[a as usize], particles.id[b as usize]];
             if near_pair(distance, self.create_distance)
                 && !are_images(particles, a, b)
-                && !state.are_of_one_clump(a, b)
+                && !state.are_of_one_body(a, b)
                 && self.may_bond(ids[0], ids[1])
                 && !is_bonded(list, a, b)
             {

@@ -42,7 +42,7 @@ pub(crate) struct Energies {
 
 /// What is looked at, and what was found.
 pub(crate) struct Encounters<'a> {
-    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them boundaries, then clumps.
+    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them the other bodies.
     contacts: Vec<u8>,
     /// Gravity and applied forces.
     fields: &'a Fields,
@@ -83,7 +83,7 @@ impl<'a> Encounters<'a> {
         (whole, time): (bool, f64),
     ) -> Self {
         contacts.clear();
-        contacts.resize(state.particles.len() + state.boundaries.len() + state.clumps.len(), 0);
+        contacts.resize(state.particles.len() + state.owners(), 0);
         let mut count = |slot: u32| {
             let place = &mut contacts[mover(state, slot)];
             *place = (*place + 1).min(2);

@@ -54,7 +54,7 @@ impl Simulation {
             bodies: boundary::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             cell: Cell::of(&scene),
-            clumps: ClumpBodies::of(&scene),
+            shapes: ClumpBodies::of(&scene),
             flow,
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
@@ -86,7 +86,7 @@ impl Simulation {
         self.give_orientations();
         boundary::place_groups(&self.scene, &self.bodies, &mut self.state);
         let context = Context { step: 0.0, width: self.width, threads: None };
-        if let Some(clumps) = &self.clumps {
+        if let Some(clumps) = &self.shapes {
             clumps.place(&mut self.state);
         }
         self.check_memory()?;

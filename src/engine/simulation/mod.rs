@@ -44,7 +44,7 @@ pub use taken_over::Description;
 
 use crate::base::lanes::Width;
 use crate::base::threads::{Context, Workers};
-use crate::engine::bodies::{ClumpBodies, RigidBody};
+use crate::engine::bodies::{ClumpBodies, RigidBody, Striker};
 use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
 use crate::engine::boundaries::nodes;
@@ -89,8 +89,8 @@ pub struct Simulation {
     suppression: Suppression,
     /// The periodic cell, where the scene has one.
     cell: Option<Cell>,
-    /// Clumps, where the scene has any.
-    clumps: Option<ClumpBodies>,
+    /// Shapes of clumps, where the scene has any.
+    shapes: Option<ClumpBodies>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.
@@ -168,6 +168,11 @@ impl Simulation {
     /// Calls this function, from now on, after each stage of a time step: to measure what each costs.
     pub fn watch(&mut self, watch: Watch) {
         self.watch = Some(watch);
+    }
+
+    /// What stands for bodies of several spheres where impacts are foreseen.
+    fn strikers(&self) -> &[Striker] {
+        self.shapes.as_ref().map_or(&[][..], ClumpBodies::strikers)
     }
 
     /// The scene.

@@ -132,8 +132,8 @@ impl Probe {
                 }
             }
         }
-        if let Some(clumps) = &simulation.clumps {
-            clumps.place(&mut simulation.state);
+        if let Some(shapes) = &simulation.shapes {
+            shapes.place(&mut simulation.state);
         }
         if let Some(cell) = &simulation.cell {
             cell.place_images(&mut simulation.state);

@@ -8,7 +8,7 @@ use super::System;
 use super::limiter::{Limiter, LimiterKind, Mode};
 use crate::base::number::Vector;
 use crate::engine::bodies::RigidBody;
-use crate::engine::bodies::{ClumpBodies, Striker};
+use crate::engine::bodies::Striker;
 use crate::engine::contacts::{Frame, Meeting};
 use crate::engine::integration::Fields;
 use crate::engine::state::GONE;
@@ -238,9 +238,8 @@ impl System<'_> {
                 }
             }
         }
-        let clumps =
-            self.clumps.map_or(&[][..], ClumpBodies::strikers).iter().map(|it| Some(it.candidate(self.fields)));
-        lightest.into_iter().flatten().chain(largest).chain(still).chain(moved).chain(clumps).flatten().collect()
+        let strikers = self.strikers.iter().map(|it| Some(it.candidate(self.fields)));
+        lightest.into_iter().flatten().chain(largest).chain(still).chain(moved).chain(strikers).flatten().collect()
     }
 }
 

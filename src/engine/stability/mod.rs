@@ -18,8 +18,7 @@ mod shares;
 mod triangle;
 
 use crate::base::threads::Context;
-use crate::engine::bodies::ClumpBodies;
-use crate::engine::bodies::RigidBody;
+use crate::engine::bodies::{RigidBody, Striker};
 use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{GONE, State};
@@ -46,8 +45,8 @@ pub(crate) struct System<'a> {
     pub state: &'a State,
     /// Groups that move.
     pub bodies: &'a [Option<RigidBody>],
-    /// Clumps, where there are any.
-    pub clumps: Option<&'a ClumpBodies>,
+    /// What stands for bodies of several spheres where impacts are foreseen.
+    pub strikers: &'a [Striker],
     /// What acts on each particle by itself.
     pub fields: &'a Fields,
     /// Interactions.

@@ -119,7 +119,7 @@ impl Parts {
     }
 }
 
-/// A group, a clump or a surface that forces move.
+/// A body that forces move.
 pub(super) struct Group {
     /// Where its reference point stands \[m\].
     pub pivot: Vector,
@@ -133,7 +133,7 @@ pub(crate) struct Network<'a> {
     pub(super) state: &'a State,
     /// Of each particle (slot): what scales its translations \[1/√kg\] and its rotations \[1/√(kg m²)\].
     pub(super) roots: Arc<[[f64; 2]]>,
-    /// Of each boundary, and behind them of each clump.
+    /// Of each body of several parts, by its number.
     pub(super) groups: Arc<[Option<Group>]>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
@@ -153,7 +153,7 @@ impl<'a> Network<'a> {
             [(linear / mass).sqrt(), (angular / inertia).sqrt()]
         };
         let mut groups: Vec<Option<Group>> = Vec::new();
-        groups.resize_with(state.boundaries.len() + state.clumps.len(), || None);
+        groups.resize_with(state.owners(), || None);
         for body in bodies::each(rigid, state) {
             let root = body.root(fields.amplification_of(body.members));
             groups[body.number] = Some(Group { pivot: body.point, root });
@@ -272,7 +272,7 @@ impl<'a> Network<'a> {
         std::array::from_fn(|k| stiffness[k] + root * damping[k])
     }
 
-    /// An interaction; of a particle or clump with an image of itself two with what stands still, which are together at least as stiff, as
+    /// An interaction; of a body with an image of itself two with what stands still, which are together at least as stiff, as
     /// |a − b|² ≤ 2 |a|² + 2 |b|².
     pub(super) fn with_itself(&self, link: &Link) -> [Option<Link>; 2] {
         if self.state.cell.is_none() {
@@ -363,8 +363,8 @@ impl<'a> Network<'a> {
         let [own, other] = [element.slots[end], element.slots[1 - end]];
         let in_cell = |slot: usize| Vector::from(particles.position[slot]);
         let centre = match centre(own) {
-            // A clump is brought back into a cell with its mass centre, a group stays where its pivot is.
-            Some(slot) if self.state.clump(slot).is_some() => in_cell(slot),
+            // What is loose is brought back into a cell as a whole, a group stays where its pivot is.
+            Some(slot) if self.state.is_loose(slot) => in_cell(slot),
             Some(slot) => Vector::from(self.state.unwrapped(slot)),
             None => match centre(other) {
                 Some(slot) => in_cell(slot),

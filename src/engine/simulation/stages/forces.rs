@@ -21,7 +21,7 @@ impl Simulation {
     /// Whether anything but particles moves by forces, or gathers those on its particles.
     pub(super) fn has_bodies(&self) -> bool {
         let is_body = |body: &RigidBody| body.is_free();
-        self.clumps.is_some()
+        self.shapes.is_some()
             || self.bodies.iter().flatten().any(is_body)
             || self.scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty())
     }
@@ -80,7 +80,7 @@ impl Simulation {
         self.suppression.settle(&mut self.state);
     }
 
-    /// Puts the whole load on groups, surfaces that forces move, and clumps.
+    /// Puts the whole load on bodies.
     pub(super) fn load_bodies(&mut self, context: &Context) {
         let Self { scene, fields, bodies, state, workspace, .. } = self;
         loads::sum_groups(scene, state);

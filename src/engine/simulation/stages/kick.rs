@@ -47,12 +47,12 @@ impl Simulation {
         self.state.clock.speed = speed;
     }
 
-    /// Makes the second half of the kick of groups, surfaces and clumps that forces move.
+    /// Makes the second half of the kick of bodies.
     pub(super) fn kick_bodies(&mut self, step: &mut TimeStep) {
         let groups = boundary::kick_again(&self.bodies, &mut self.state, step.length());
-        let clumps = self.clumps.as_ref().map_or(0.0, |it| it.kick_again(&mut self.state, step.length(), step.context));
+        let loose = self.shapes.as_ref().map_or(0.0, |it| it.kick_again(&mut self.state, step.length(), step.context));
         let speed = &mut self.state.clock.speed;
-        *speed = larger(larger(*speed, groups), clumps);
+        *speed = larger(larger(*speed, groups), loose);
     }
 
     /// Books the impulses of the step on boundaries and nodes, and that of global damping.

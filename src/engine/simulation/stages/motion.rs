@@ -43,7 +43,7 @@ impl Simulation {
 
     /// Makes the first half of the kick and the drift of clumps.
     pub(super) fn move_clumps(&mut self, step: &mut TimeStep) {
-        let Some(clumps) = &self.clumps else { return };
+        let Some(clumps) = &self.shapes else { return };
         let speed = clumps.kick_and_drift(&mut self.state, step.length(), step.context);
         step.way = step.way.max(speed * step.length());
     }

@@ -78,10 +78,10 @@ impl Simulation {
         let mut simulation = Self::with(scene, state);
         simulation.give_orientations();
         let there: Vec<_> = simulation.state.particles.position.clone();
-        let Self { scene, bodies, clumps, state, .. } = &mut simulation;
+        let Self { scene, bodies, shapes, state, .. } = &mut simulation;
         boundary::place_groups(scene, bodies, state);
-        if let Some(clumps) = clumps {
-            clumps.place(state);
+        if let Some(shapes) = shapes {
+            shapes.place(state);
         }
         check_groups(scene, state, &there)?;
         exchange::take_gone(state, reached, &numbers);
