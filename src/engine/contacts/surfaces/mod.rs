@@ -12,7 +12,7 @@ mod sphere;
 
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
-use super::pass::Pass;
+use super::pass::{Pass, Stiffness, Telling};
 use super::records::ContactRecord;
 use crate::base::lanes::{Shared, Width};
 use crate::base::number::Vector;
@@ -345,7 +345,9 @@ impl Pass for SurfacePass {
             }
         }
     }
+}
 
+impl Stiffness for SurfacePass {
     fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {
@@ -382,7 +384,9 @@ impl Pass for SurfacePass {
             }
         }
     }
+}
 
+impl Telling for SurfacePass {
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {
