@@ -107,7 +107,7 @@ fn load_clumps(fields: &Fields, state: &mut State, context: &Context) -> Vector 
     let of_piece = |number: usize| {
         let mut sum = Vector::zero();
         for clump in piece(number, count) {
-            let body = clumps::body(clumps_now, clump);
+            let body = clumps::unloaded(clumps_now, clump);
             let mut load = body.on_spheres(particles);
             if fields.act_beside_weight() {
                 let motion = [body.rigid.velocity, Vector::from(clumps_now.angular_velocity[clump])];

@@ -103,36 +103,44 @@ pub(crate) fn farthest(clumps: &Clumps) -> f64 {
     clumps.position.iter().map(|row| row[3]).fold(0.0, f64::max)
 }
 
-/// How a clump moves.
+/// A clump, numbered from 0, without its loads.
 #[inline(always)]
-fn rigid(clumps: &Clumps, clump: usize) -> Rigid {
-    Rigid {
-        velocity: Vector::from(clumps.velocity[clump]),
-        mass: clumps.velocity[clump][3],
-        turn: Quaternion::from_row(clumps.orientation[clump]),
-        inertia: Vector::from(clumps.moments[clump]),
-        momentum: Vector::from(clumps.angular_momentum[clump]),
-        force: Vector::from(clumps.force[clump]),
-        moment: Vector::from(clumps.moment[clump]),
-    }
-}
-
-/// What the others see of a clump, numbered from 0.
-#[inline(always)]
-pub(super) fn body(clumps: &Clumps, clump: usize) -> Body<'_> {
+pub(super) fn unloaded(clumps: &Clumps, clump: usize) -> Body<'_> {
+    let none = [Vector::zero(); 2];
     Body {
         number: clump,
-        rigid: rigid(clumps, clump),
+        rigid: Rigid {
+            velocity: Vector::from(clumps.velocity[clump]),
+            mass: clumps.velocity[clump][3],
+            turn: Quaternion::from_row(clumps.orientation[clump]),
+            inertia: Vector::from(clumps.moments[clump]),
+            momentum: Vector::from(clumps.angular_momentum[clump]),
+            force: none[0],
+            moment: none[1],
+        },
         moves: [true; 3],
         point: Vector::from(clumps.position[clump]),
         mass_centre: Vector::zero(),
         members: clumps.spheres_of(clump),
         reach: clumps.position[clump][3],
         smallest: clumps.moments[clump][3],
-        braking: clumps.braking.get(clump).map_or([Vector::zero(); 2], |load| load.map(Vector::from)),
+        braking: none,
         boundary: None,
         cell: None,
     }
+}
+
+/// How a clump moves.
+#[inline(always)]
+fn rigid(clumps: &Clumps, clump: usize) -> Rigid {
+    let [force, moment] = [clumps.force[clump], clumps.moment[clump]].map(Vector::from);
+    Rigid { force, moment, ..unloaded(clumps, clump).rigid }
+}
+
+/// A clump, numbered from 0.
+pub(super) fn body(clumps: &Clumps, clump: usize) -> Body<'_> {
+    let braking = clumps.braking.get(clump).map_or([Vector::zero(); 2], |load| load.map(Vector::from));
+    Body { rigid: rigid(clumps, clump), braking, ..unloaded(clumps, clump) }
 }
 
 /// Finds the angular velocity of a clump from its angular momentum.
