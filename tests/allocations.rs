@@ -1,5 +1,5 @@
 //! A time step in steady state asks for no memory: with planes, a group, a mesh, bonds and suppressed contacts, on one thread
-//! and on two. Planes once asked five times a step.
+//! and on two.
 
 use cograin::scene::{Scene, Source};
 use cograin::simulation::Simulation;

@@ -146,7 +146,7 @@ fn a_region_of_clumps_carries_the_stress_of_its_branches_and_one_that_spins_free
     spinning.advance(0.01).unwrap();
     let content = cograin::averages::contents(&spinning)[0];
     assert_near(&content.velocity, &[0.5, 0.0, 0.0], 1e-12);
-    assert!(content.temperature() < 1e-20, "{}", content.temperature());
+    assert!(content.granular_temperature() < 1e-20, "{}", content.granular_temperature());
 }
 
 #[test]

@@ -1,8 +1,7 @@
 //! Contacts and bonds that come are foreseen by the time step, and what stops a run is named.
 //!
-//! What was wrong: the automatic step took no notice of the speed of planes, of dashpots of bonds and of bonds made later;
-//! it was shortened between communication steps alone; `time_step.stable` was not renewed where the step is given; and
-//! the messages blamed the step where speed or load was the cause.
+//! The automatic step knows the speed of planes, the dashpots of bonds and bonds to come. It becomes shorter inside a communication
+//! step. `time_step.stable` is renewed where the step is given. Messages name speed or load where these are the cause.
 
 use crate::support::{scene, start};
 use cograin::quantity::BoundaryIndex;
@@ -112,7 +111,7 @@ fn a_plate_driven_into_a_loose_packing_gives_it_no_more_than_its_work() {
 
 #[test]
 fn a_given_step_is_refused_before_numbers_are_nonsense_and_the_bound_is_renewed() {
-    let mut simulation = start(&plane_hits_sphere("step = 1e-3", "driven = [\"z\"]"));
+    let mut simulation = start(&plane_hits_sphere("step = 1e-3\nstrict_step = true", "driven = [\"z\"]"));
     simulation.advance(0.01).expect("nothing moves yet");
     let resting = simulation.state().clock.stable;
     simulation.set_input(BoundaryIndex(0), 2, 0.1);
@@ -121,6 +120,32 @@ fn a_given_step_is_refused_before_numbers_are_nonsense_and_the_bound_is_renewed(
     assert!(*step == 1e-3 && *stable < 1e-3 && *stable < resting, "{error}");
     assert!(by.contains("particle 1"), "{error}");
     assert_eq!(simulation.state().particles.velocity[0][2], 0.0, "nothing has happened yet");
+}
+
+#[test]
+fn a_given_step_is_divided_where_the_bound_falls_below_it_and_counted() {
+    let mut simulation = start(&plane_hits_sphere("step = 1e-3", "driven = [\"z\"]"));
+    simulation.advance(0.01).expect("nothing moves yet");
+    let begun = simulation.state().clock;
+    assert_eq!((begun.step, begun.divided), (1e-3, 0), "it is the given one as long as that is stable");
+    simulation.set_input(BoundaryIndex(0), 2, 0.1);
+    for _ in 0..50 {
+        let part = simulation.advance_part(0.1, 20).expect("it is divided");
+        let clock = simulation.state().clock;
+        assert!(clock.last_step <= clock.stable.max(1e-3) && clock.last_step <= 1e-3, "{clock:?}");
+        if part {
+            break;
+        }
+    }
+    let clock = simulation.state().clock;
+    assert!(clock.divided > 0 && clock.divided < clock.steps, "{} of {} time steps", clock.divided, clock.steps);
+    let parts = 1e-3 / clock.step;
+    assert!((parts - parts.round()).abs() < 1e-9, "the given step has {parts} parts");
+    assert!(simulation.state().particles.velocity[0][2] > 0.5, "the plane has hit the sphere");
+    let text = "strict_step beside allow_unstable";
+    let both =
+        crate::support::read(&plane_hits_sphere("step = 1e-3\nstrict_step = true\nallow_unstable = true", "fixed"));
+    assert!(both.as_ref().is_err_and(|error| error.contains(text)), "{both:?}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Saved states that were changed and given right checksums again: each is refused, or makes a step.
 //!
-//! Kernels trust the slots in the lists, and took them from the bytes: six of eight series of 300 such states ended in a
-//! signal. What is tried here goes through the same door as a checkpoint and a state from a host.
+//! Kernels trust the slots in the lists, and lists come from the bytes. What is tried here goes through the same door as a
+//! checkpoint and a state from a host.
 
 use crate::support;
 use cograin::results::{Checkpoint, write_checkpoint};

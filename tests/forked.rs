@@ -1,5 +1,5 @@
-//! A simulation with helpers in a child made by `fork`, where only the calling thread lives on. It waited for the helpers
-//! for ever.
+//! A simulation with helpers in a child made by `fork`, where only the calling thread lives on. It starts
+//! helpers of its own and waits for no others.
 
 #![cfg(unix)]
 

@@ -56,12 +56,13 @@ fn sheet() -> String {
 
 /// A grain in front of a wall.
 fn scene((key, wall): (&str, &str), [x, y]: [f64; 2], velocity: f64, motion: &str, step: &str) -> String {
+    let strict = if step == "\"auto\"" { "" } else { "strict_step = true\n" };
     let (sheet, material) = if key == "particles" { (sheet(), "") } else { (String::new(), "material = \"g\"\n") };
     format!(
         r#"
 [run]
 step = {step}
-threads = 1
+{strict}threads = 1
 [material.g]
 density = 2500.0
 youngs_modulus = 1e7

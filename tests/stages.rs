@@ -17,11 +17,16 @@ seed = 7
 density = 2500.0
 youngs_modulus = 1e7
 poissons_ratio = 0.25
+conductivity = 1.0
+specific_heat = 800.0
 [pair.a.a]
 restitution = 0.6
 friction = 0.4
 [contact.all.normal.hertz]
 [contact.all.tangential.history]
+[contact.all.heat.constriction]
+[heat]
+from_losses = ["normal_damping", "tangential_damping", "sliding"]
 [output]
 energy = true
 losses = true
@@ -35,6 +40,7 @@ LAWS
 spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 0.0, 0.0], radius = 0.002 }]
 [particles.clumps]
 material = "a"
+temperature = 300.0
 clump = "pair"
 list = [{ position = [0.0, 0.02, 0.00195], velocity = [0.1, 0.0, 0.0] }]
 [particles.loose]
@@ -42,6 +48,7 @@ material = "a"
 list = [{ position = [0.0056, 0.02, 0.00195], radius = 0.002 }]
 [particles.rods]
 material = "a"
+temperature = 300.0
 list = [
     { position = [0.0, 0.0, 0.00195], radius = 0.002, velocity = [0.0, 0.0, -0.2] },
     { position = [0.004, 0.0, 0.00195], radius = 0.002 },
@@ -49,6 +56,7 @@ list = [
 ]
 [particles.stone]
 material = "a"
+temperature = 350.0
 list = [
     { position = [0.02, 0.0, 0.00195], radius = 0.002, velocity = [0.0, 0.1, -0.1] },
     { position = [0.02, 0.004, 0.00195], radius = 0.002 },
@@ -87,6 +95,7 @@ box = [[0.009, -0.05, 0.0], [0.012, 0.05, 0.01]]
 [insertion.feed]
 region = "mouth"
 material = "a"
+temperature = 400.0
 sizes = { radius = 0.001 }
 count_rate = 20000.0
 [outlet.bottom]
@@ -100,10 +109,12 @@ LAWS
 spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 0.0, 0.0], radius = 0.002 }]
 [particles.clumps]
 material = "a"
+temperature = 300.0
 clump = "pair"
 list = [{ position = [0.004, 0.008, 0.004], velocity = [0.1, 0.0, 0.2] }]
 [particles.balls]
 material = "a"
+temperature = 300.0
 list = [
     { position = [0.002, 0.002, 0.002], radius = 0.002, velocity = [0.3, 0.0, 0.0] },
     { position = [0.0064, 0.002, 0.002], radius = 0.002 },
@@ -138,6 +149,7 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
                 && p.slot == q.slot
                 && p.owner == q.owner
                 && p.material == q.material
+                && p.declared == q.declared
                 && a.exchange == b.exchange
         }
         Part::Lists => a.neighbours == b.neighbours,
@@ -152,6 +164,7 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
                 && a.damping_force == b.damping_force
                 && a.damping_impulse == b.damping_impulse
         }
+        Part::Heat => a.heat == b.heat,
         Part::Speed => a.clock.speed == b.clock.speed && a.foresight == b.foresight,
     }
 }

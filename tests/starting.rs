@@ -1,8 +1,7 @@
 //! Where a simulation starts.
 //!
-//! Start values were put before the first bonds were made: a driven group that started elsewhere got bonds without load,
-//! or none where it was too far away. Setting one in a scene that began in a reached state shifted the energy book, and
-//! a settled state kept what damping had taken of its bonds.
+//! The first bonds are made before start values are put, so a driven group that starts elsewhere has loaded bonds. Start values
+//! leave the energy book of a reached state as it is. A settled state begins with nothing taken by damping of its bonds.
 
 use crate::support;
 use cograin::interface::{Interface, Value};

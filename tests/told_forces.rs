@@ -1,7 +1,7 @@
 //! Forces that are told of single contacts are those that acted, with every scheme and from the first time step of a contact to its last.
 //!
-//! What was wrong: through a face of a periodic cell and at surfaces that forces move they had velocities of different moments, and with
-//! `midway` and `predicted` no weights of dashpots.
+//! This holds through a face of a periodic cell and at surfaces that forces move, and for the weights of dashpots with `midway` and
+//! `predicted`.
 
 use crate::support::start;
 use cograin::simulation::Simulation;

@@ -1,8 +1,8 @@
 //! No length, time, mass or force is built in: a scene in units of powers of two gives the same bits.
 //!
 //! With lengths and times times 2^k and masses times 2^(3k), speeds, densities and pressures keep their numbers, and all else is times
-//! a power of two. What was wrong: the automatic step was never above 1 ms, and `jkr`, `hooke` and `eepa` took odd roots of numbers with
-//! units. Every number of a scene has its unit here ([`exponent`]): a scene with a new key asks for it.
+//! a power of two. The automatic step has no absolute bound, and odd roots are those of numbers without units. Every number of a
+//! scene has its unit here ([`exponent`]): a scene with a new key asks for it.
 
 use crate::every_law::{bond_laws, contact_laws};
 use crate::every_surface::text_of;

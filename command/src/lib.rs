@@ -12,7 +12,7 @@ use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_libraries};
 use cograin::report;
-use cograin::results::{Checkpoint, EarlierFile, Failure, claim_file, refuse_to_replace};
+use cograin::results::{Checkpoint, EarlierFile, Failure, OutputError, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, RunOrder, SettleOrder, SettleProgress, SettleStart, Start};
 use cograin::scene::{Models, PackingProgress, Scene, Setting, Source};
 use cograin::statics::Factorise;
@@ -41,7 +41,7 @@ struct Arguments {
     /// What to do.
     #[command(subcommand)]
     command: Command,
-    /// Tell no progress and no closing line; reports and errors are still told
+    /// Show no progress and no closing line; reports and errors still appear
     #[arg(short, long, global = true)]
     quiet: bool,
 }
@@ -53,6 +53,8 @@ enum Command {
     New(recipes::NewArguments),
     /// Read a scene; say what it uses, how long its time step may be, what it costs and what is risky in it
     Check(CheckArguments),
+    /// List the inputs, outputs and parameters of a scene, with unit and meaning
+    Variables(VariablesArguments),
     /// Run a scene to its end and write its results
     Run(RunArguments),
     /// Run a scene with damping until it is at rest and write its state
@@ -102,6 +104,17 @@ struct CheckArguments {
     stiffness: bool,
     /// Print the report as JSON
     #[arg(long, conflicts_with = "stiffness")]
+    json: bool,
+}
+
+/// `cograin variables`
+#[derive(Args)]
+struct VariablesArguments {
+    /// The scene.
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Print the list as JSON
+    #[arg(long)]
     json: bool,
 }
 
@@ -220,6 +233,7 @@ impl From<Failure> for Ending {
     fn from(failure: Failure) -> Self {
         match failure {
             Failure::Refused(refusal) => Self::refused(refusal),
+            Failure::Output(error @ OutputError::NotOwn { .. }) => Self::refused(error),
             failure => Self::failed(failure),
         }
     }
@@ -249,6 +263,7 @@ fn obey(models: &Models, library: &str, Arguments { command, quiet }: Arguments)
     match command {
         Command::New(arguments) => recipes::new(&arguments),
         Command::Check(arguments) => check(models, &arguments, quiet),
+        Command::Variables(arguments) => variables(models, &arguments, quiet),
         Command::Run(arguments) => run(models, &arguments, quiet),
         Command::Settle(arguments) => settle(models, &arguments, quiet),
         Command::Export(arguments) => package(models, library, &arguments, quiet),
@@ -338,6 +353,13 @@ fn check(models: &Models, arguments: &CheckArguments, quiet: bool) -> Result<(),
     if arguments.json { say_as_it_is(report.to_json().as_bytes()) } else { say(report) }
 }
 
+/// `cograin variables`
+fn variables(models: &Models, arguments: &VariablesArguments, quiet: bool) -> Result<(), Ending> {
+    let (scene, source) = read(models, &arguments.scene, quiet)?;
+    let list = report::variables(&scene, &source.name).map_err(Ending::refused)?;
+    if arguments.json { say_as_it_is(list.to_json().as_bytes()) } else { say(list) }
+}
+
 /// `cograin run`
 fn run(models: &Models, arguments: &RunArguments, quiet: bool) -> Result<(), Ending> {
     let (scene, mut source) = read_to_run(models, &arguments.scene, quiet)?;
@@ -391,6 +413,7 @@ fn settle(models: &Models, arguments: &SettleArguments, quiet: bool) -> Result<(
             None => SettleStart::Scene,
         },
         checkpoint: &arguments.output,
+        earlier: earlier_file(arguments.overwrite),
         most_steps: arguments.steps,
         factorise: FACTORISE,
         stop: &stop,
@@ -409,10 +432,14 @@ fn settle(models: &Models, arguments: &SettleArguments, quiet: bool) -> Result<(
 fn package(models: &Models, library: &str, arguments: &ExportArguments, quiet: bool) -> Result<(), Ending> {
     let (scene, source) = read(models, &arguments.scene, quiet)?;
     let scene = Arc::new(scene);
-    let libraries = find_libraries(library, &arguments.libraries).map_err(Ending::failed)?;
     let mut read = files_read(&arguments.scene.scene, &source, &[&arguments.from]);
+    let claim = |read: &[PathBuf]| claim_file(&arguments.output, earlier_file(arguments.overwrite), read);
+    claim(&read).map_err(Ending::refused)?;
+    let named = !arguments.libraries.is_empty();
+    let not = |error| if named { Ending::refused(error) } else { Ending::failed(error) };
+    let libraries = find_libraries(library, &arguments.libraries).map_err(not)?;
     read.extend_from_slice(&libraries);
-    claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
+    claim(&read).map_err(Ending::refused)?;
     let begun = match &arguments.from {
         Some(path) => {
             let checkpoint = Checkpoint::read(path).map_err(Ending::refused)?;

@@ -1,5 +1,5 @@
-//! Hosts with other floating-point environments get the same bits and no signal. Directed rounding gave other bits, and a
-//! host that traps exceptions was killed in `fmi2Instantiate`.
+//! Hosts with other floating-point environments get the same bits and no signal: with
+//! directed rounding, and with traps of exceptions.
 
 #![cfg(target_arch = "x86_64")]
 

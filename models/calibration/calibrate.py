@@ -54,11 +54,21 @@ class BothTests:
 
     program: str = "cograin"
 
+    def runs(self):
+        """Both tests by name."""
+        press = ("--inputs", HERE / "press.csv")
+        return {
+            "heap": SceneRun(HERE / "heap.toml", read=heap, program=self.program),
+            "oedometer": SceneRun(HERE / "oedometer.toml", read=oedometer, program=self.program, options=press),
+        }
+
+    def identity(self, row):
+        """What makes their results, so that kept ones count as long as it is the same."""
+        return {f"{name}.{key}": value for name, run in self.runs().items() for key, value in run.identity(row).items()}
+
     def __call__(self, row):
         """Angle and void ratios."""
-        found = dict(SceneRun(HERE / "heap.toml", read=heap, program=self.program)(row))
-        press = ("--inputs", HERE / "press.csv")
-        return {**found, **SceneRun(HERE / "oedometer.toml", read=oedometer, program=self.program, options=press)(row)}
+        return {key: value for run in self.runs().values() for key, value in run(row).items()}
 
 
 def terms(friction, rolling):

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 #: What stands in the first place of a file; the number changes with the order of what follows.
-FORMAT = "cograin coupled run 1"
+FORMAT = "cograin coupled run 2"
 
 
 def write(path: Path, value: Any) -> None:

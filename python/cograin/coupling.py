@@ -14,6 +14,7 @@ import numpy as np
 from cograin import checkpoint as checkpoints
 from cograin import interrupts
 from cograin.exchange import Exchange, Side
+from cograin.identity import differing, digest, identity
 from cograin.partner import Partner
 from cograin.progress import Progress
 from cograin.record import COLUMNS, Record, Row
@@ -33,6 +34,9 @@ FORESEEN = 0.75
 
 #: A step whose sides differ by more than this part of the farthest move in a step is never kept unasked.
 KEPT = 0.1
+
+#: How many differences a refusal tells.
+MOST = 6
 
 
 @dataclass(frozen=True)
@@ -133,6 +137,7 @@ class Coupling:
         columns = [*interface.names, *(_force_name(name, exchange.force) for name in interface.names)]
         # What is a column anyway is not watched a second time.
         watched, self._read_watched, units = self._reading(_without(watch, columns))
+        self._watched = dict(watch) if isinstance(watch, Mapping) else {}
         _different([*COLUMNS, *columns, *watched])
         count = len(interface.names)
         self.record = Record(columns[:count], columns[count:], watched, units)
@@ -217,10 +222,12 @@ class Coupling:
             return
         if self.record.rows:
             raise ValueError(f"{file}: expected a run from its first step on, found one at {self.time:g} s")
-        partners = getattr(self.partner, "partners", [self.partner])
-        for one in (self.interface, *partners):
+        for one in (self.interface, *getattr(self.partner, "partners", [self.partner])):
             if not (hasattr(one, "memory") and hasattr(one, "recall")):
                 raise ValueError(f"{file}: {type(one).__name__} has no memory() and recall(), which a checkpoint needs")
+        made = identity(self.settings(), "run")
+        # Outputs, not saved states: those differ by the number of threads, which changes no bit.
+        outputs = {f"outputs of {unit.name}": digest(unit.outputs().tobytes()) for unit in self._units}
         answer = None
         if not getattr(self.partner, "units", []):
             step = self._next()
@@ -228,15 +235,20 @@ class Coupling:
             with suppress(ValueError, StepDiscarded):
                 answer.append(self.partner.predict(0.0 * self._force, step))
                 answer.append(self.partner.compliance(step))
-        self._identity = {
+        self._identity = {**made, **outputs, "first force": self._force, "answer of the partner": answer}
+
+    def settings(self) -> dict[str, Any]:
+        """What makes a run what it is; the end and the number of threads are not among it."""
+        return {
             "step": self.step,
             "begin": self._start,
             "columns": self.record.names,
-            "exchange": type(self.exchange).__name__,
-            "partner": [type(one).__name__ for one in partners],
-            "units": [[unit.name, unit.description.guid] for unit in self._units],
-            "first force": self._force,
-            "answer of the partner": answer,
+            "watch": self._watched,
+            "control": self.control,
+            "exchange": self.exchange,
+            "partner": self.partner,
+            "interface": self.interface,
+            "units": {unit.name: unit for unit in self._units},
         }
 
     def _keep(self, file: Path) -> None:
@@ -255,13 +267,14 @@ class Coupling:
         """Stands where the run stood that left this file."""
         found = checkpoints.read(file)
         try:
-            identity, states, memories, own, rows = found
-            other = [name for name, mine in (self._identity or {}).items() if not _same(mine, identity[name])]
+            made, states, memories, own, rows = found
+            other = _other(self._identity or {}, dict(made))
         except (ValueError, TypeError, KeyError):
             raise ValueError(f"{file}: expected a checkpoint of a coupled run, found another file") from None
         if other:
-            said = f"{file}: expected a checkpoint of this run, found one of another: {', '.join(other)} differ"
-            raise ValueError(f"{said}; delete the file to begin anew")
+            more = f" and {len(other) - MOST} more" if len(other) > MOST else ""
+            said = f"expected a checkpoint of this run, found one of another: {', '.join(other[:MOST])}{more} differ"
+            raise ValueError(f"{file}: {said}; delete the file to begin anew")
         for unit, (data, time) in zip(self._units, states, strict=True):
             state = unit.deserialise(data, time)
             unit.restore(state)
@@ -541,6 +554,14 @@ def _turning(interface: Side, place: int) -> None:
     if turn is None:
         raise ValueError(f"{type(interface).__name__}: expected a side that turns, for a partner that turns")
     turn(place)
+
+
+def _other(mine: Mapping[str, Any], found: Mapping[str, Any]) -> list[str]:
+    """What tells a run from that of a checkpoint, in words: settings exactly, what was computed to rounding."""
+    computed = ("first force", "answer of the partner")
+    settings = ({name: value for name, value in each.items() if name not in computed} for each in (mine, found))
+    other = [name.removeprefix("run.").removeprefix("units.") for name in differing(*settings)]
+    return other + [name for name in computed if not _same(mine[name], found[name])]
 
 
 def _same(mine: Any, found: Any) -> bool:

@@ -99,13 +99,17 @@ class Exchange(ABC):
     _fixed = ("_made", "tolerance", "exchange", "_measure")
 
     def memory(self) -> Any:
-        """What it knows from earlier steps."""
+        """What the exchange learned in earlier steps."""
         changing = {name: value for name, value in vars(self).items() if name not in self._fixed}
         return {name: list(value) if isinstance(value, list) else value for name, value in changing.items()}
 
     def recall(self, memory: Any) -> None:
-        """Knows that again, and nothing of what came after."""
+        """Restores what `memory` returned, and forgets what came after."""
         vars(self).update(memory)
+
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, before its first step."""
+        return {name: value for name, value in vars(self).items() if name not in ("_made", "_measure")}
 
     def fresh(self) -> None:
         """Begins a run, with what it was made with: nothing of an earlier run changes a bit."""

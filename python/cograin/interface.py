@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from cograin import interrupts
 from cograin.rotation import after, quaternion, rotation_vector, secant, tangent, turn
 from cograin.step import Force, Step
 from cograin.unit import State, Unit
@@ -51,7 +52,7 @@ class _Turn:
         self.counted = np.zeros(3)  # the directions as the partner has them
 
     def memory(self) -> tuple[Vector, Vector, Vector]:
-        """What changes."""
+        """The values that change in a step."""
         return self.given, self.before, self.counted
 
     def begin(self, given: Vector, others: Vector) -> None:
@@ -207,7 +208,7 @@ class _Part:
         self._turns_saved = [one.memory() for one in self.turns]
 
     def restore(self) -> None:
-        """Has that again."""
+        """Restores the saved state."""
         for one, saved in zip(self.turns, self._turns_saved, strict=True):
             one.given, one.before, one.counted = saved
 
@@ -446,6 +447,7 @@ class Interface:
             # No unit is left in the middle of a step.
             failed = [failure for each in running if (failure := each.exception()) is not None]
         if failed:
+            interrupts.check()
             raise failed[0]
 
     def save(self) -> None:
@@ -465,12 +467,17 @@ class Interface:
             part.restore()
         self.displacement = self._saved
 
+    def settings(self) -> dict[str, Any]:
+        """Which variables of which units it joins, and where it stands."""
+        parts = [[part.unit.name, part.displacements, part.forces, part.through] for part in self._parts]
+        return {"parts": parts, "substeps": self.substeps, "displacement": self.displacement}
+
     def memory(self) -> Any:
-        """What changes beside the units."""
+        """The values that change in a step, without the units."""
         return self.displacement, [[one.memory() for one in part.turns] for part in self._parts]
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         self.displacement, turns = memory
         for part, several in zip(self._parts, turns, strict=True):
             for one, kept in zip(part.turns, several, strict=True):

@@ -13,7 +13,11 @@ from cograin.vector import Matrix, Vector, vector
 
 
 class Partner(Protocol):
-    """The other side of an interface: takes the force of the particles and determines the displacement."""
+    """The other side of an interface: takes the force of the particles and determines the displacement.
+
+    For a checkpoint it also has ``memory()``, which gives what its steps change, and ``recall(memory)``. A checkpoint
+    is that of a partner with the same attributes; ``settings()`` gives others in their place, by their names.
+    """
 
     @property
     def displacement(self) -> Vector:
@@ -116,12 +120,16 @@ class UnitPartner:
         """The unit."""
         return [self.unit]
 
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, and where it stands, beside the unit itself."""
+        return {name: value for name, value in vars(self).items() if name not in ("unit", "_saved", "_tried")}
+
     def memory(self) -> Any:
-        """Where it is, and what it learned of the unit."""
+        """Where the partner is, and what it learned of the unit."""
         return self._here, self.unit.time, self._largest, dict(self._compliances)
 
     def recall(self, memory: Any) -> None:
-        """Is there again, at the beginning of a step."""
+        """Restores what `memory` returned, at the beginning of a step."""
         self._here, time, self._largest, self._compliances = memory
         if (self._tried is not None or self.unit.time != time) and self._saved is not None:
             self.unit.restore(self._saved)
@@ -206,12 +214,16 @@ class Partners:
         turning = [(one, place.start) for one, place in self._each() if hasattr(one, "turning")]
         return tuple(first + each for one, first in turning for each in one.turning())
 
+    def settings(self) -> dict[str, Any]:
+        """The partners."""
+        return {"partners": self.partners}
+
     def memory(self) -> Any:
-        """What changes in each that says it."""
+        """The memories of those that have one."""
         return [one.memory() if hasattr(one, "memory") else None for one in self.partners]
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         for one, kept in zip(self.partners, memory, strict=True):
             if hasattr(one, "recall"):
                 one.recall(kept)

@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from cograin.extras import needed
 from cograin.results import Cloud, Frame, ResultError, Run, Table, read_table
 
 #: Colours after Okabe and Ito, in an order in which neighbours differ in lightness, too.
@@ -34,11 +35,8 @@ NAMES = "xyz"
 def _figure(rows: int = 1, width: float = 7.0, height: float = 4.0) -> tuple[Any, Any]:
     """A figure with so many panels, one above the other."""
     # A figure of its own: no window, no state of pyplot that others share.
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height * rows), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = needed("matplotlib.figure", "plot").Figure(figsize=(width, height * rows), layout="constrained")
+    needed("matplotlib.backends.backend_agg", "plot").FigureCanvasAgg(figure)
     return figure, figure.subplots(rows, 1, squeeze=False, sharex=rows > 1)[:, 0]
 
 
@@ -227,6 +225,27 @@ def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[fl
     return figure
 
 
+def _ends(frame: Frame, particles: Cloud, contacts: Cloud) -> tuple[Any, Any]:
+    """Where the lines of contacts begin and end: at the centres; at a boundary where they touch."""
+    place_of = {int(number): place for place, number in enumerate(particles["id"])}
+    ends = [np.array([place_of.get(int(number), -1) for number in contacts[name]]) for name in ("id1", "id2")]
+    second = np.where((ends[1] >= 0)[:, None], particles.points[ends[1]], contacts.points)
+    return particles.points[ends[0]], second
+
+
+def _joined(first: Any, second: Any, values: Any, edges: Any) -> tuple[Any, Any]:
+    """Lines between points, with their values. Through a face of a cell there are two: from each point to the image."""
+    lines = np.stack([first, second], axis=1)
+    if edges is None:
+        return lines, values
+    apart = second - first
+    way = apart - np.round(apart @ np.linalg.pinv(edges)) @ edges
+    through = np.abs(way - apart).max(axis=1) > 1e-6 * np.abs(edges).max()
+    lines[:, 1] = first + way
+    back = np.stack([second - way, second], axis=1)[through]
+    return np.concatenate([lines, back]), np.concatenate([values, values[through]])
+
+
 def force_chains(frame: Frame, view: str = "y") -> Any:
     """Normal forces between particles as lines, the wider the larger; needs ``[output] contacts = true``."""
     from matplotlib.collections import LineCollection
@@ -240,14 +259,11 @@ def force_chains(frame: Frame, view: str = "y") -> Any:
         _circles(panel, particles, view, facecolors="none", edgecolors="#cccccc", linewidths=0.4)
     if len(contacts):
         across, up, _, _ = VIEWS[view]
-        place_of = {int(number): place for place, number in enumerate(particles["id"])}
-        ends = [np.array([place_of.get(int(number), -1) for number in contacts[name]]) for name in ("id1", "id2")]
-        first = particles.points[ends[0]]
-        # At a boundary the line ends where they touch.
-        second = np.where((ends[1] >= 0)[:, None], particles.points[ends[1]], contacts.points)
+        first, second = _ends(frame, particles, contacts)
         force = contacts["normal_force"]
+        lines, force = _joined(first, second, force, frame.edges)
         order = np.argsort(np.abs(force))
-        lines = np.stack([first, second], axis=1)[order][:, :, [across, up]]
+        lines = lines[order][:, :, [across, up]]
         largest = float(np.abs(force).max())
         factor, unit = _prefixed(force, "N")
         # The largest line is as wide as a grain looks; forces of a hundredth vanish.
@@ -268,11 +284,8 @@ def cracks(run: Run, view: str = "y") -> Any:
     points = np.array([[float(row[f"position.{axis}"]) for axis in NAMES] for row in rows])
     times = np.array([float(row["time"]) for row in rows])
     causes = sorted({row["cause"] for row in rows})
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(9.0, 4.5), layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = needed("matplotlib.figure", "plot").Figure(figsize=(9.0, 4.5), layout="constrained")
+    needed("matplotlib.backends.backend_agg", "plot").FigureCanvasAgg(figure)
     where, when = figure.subplots(1, 2)
     across, up, _, _ = VIEWS[view]
     frames = run.frames
@@ -386,7 +399,7 @@ def main(words: Iterable[str] | None = None) -> int:
         for path in draw(options.source, options.output, by=options.by, view=options.view):
             print(path)
     except ModuleNotFoundError as error:
-        print(f"{error.name}: not found; install cograin[plot]", file=sys.stderr)
+        print(error, file=sys.stderr)
         return 1
     except (ResultError, KeyError, OSError) as error:
         print(error.args[0] if isinstance(error, KeyError) else error, file=sys.stderr)

@@ -21,18 +21,19 @@ class Program:
 
     def __init__(self, path: str | Path = "cograin") -> None:
         self.path = Path(path)
+        # A path from here is not a name to look for, however it is written: "./cograin" is one, too.
+        self.command = str(self.path.resolve()) if os.sep in str(path) else str(path)
         if str(path) == "cograin":
             # The scripts of an environment that was not activated are on no search path.
             beside = Path(sysconfig.get_path("scripts")) / ("cograin.exe" if sys.platform == "win32" else "cograin")
             if beside.is_file():
                 self.path = beside
+                self.command = str(beside)
 
     def __call__(self, *arguments: str | Path) -> str:
         """Runs the command with these arguments; returns what it printed."""
-        # A path from here is not a name to look for, however it is written.
-        command = str(self.path.resolve()) if os.sep in str(self.path) else str(self.path)
         try:
-            done = subprocess.run([command, *map(str, arguments)], capture_output=True, text=True, check=False)
+            done = subprocess.run([self.command, *map(str, arguments)], capture_output=True, text=True, check=False)
         except FileNotFoundError:
             raise ProgramError(f"{self.path}: not found; install it (pip install .), or name it") from None
         if done.returncode:

@@ -70,13 +70,17 @@ class Record:
         last = f" to {self.rows[-1].time:g} s" if self.rows else ""
         return f"<Record of {len(self)} steps{last}: {', '.join(self.names[len(COLUMNS) :][:8])}>"
 
+    def settings(self) -> dict[str, Any]:
+        """Its columns."""
+        return {"names": self.names}
+
     def memory(self) -> Any:
         """All rows: their numbers, and why some did not converge."""
         numbers = np.array([row.values for row in self.rows]).reshape(-1, len(self.names))
         return numbers, {place: row.reason for place, row in enumerate(self.rows) if row.reason}
 
     def recall(self, memory: Any) -> None:
-        """Has these rows again."""
+        """Restores these rows."""
         numbers, reasons = memory
         ends = np.cumsum([len(COLUMNS), self._directions, self._directions])
         self.rows = []

@@ -20,7 +20,8 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from cograin.vector import Vector
+from cograin.extras import needed
+from cograin.vector import Matrix, Vector
 
 #: Units of the columns of a history or a record, by the first word of their names.
 FIRST = {
@@ -58,11 +59,19 @@ UNITS = {
     "mass_flow": "kg/s",
     "stress": "Pa",
     "mean_stress": "Pa",
+    "conjugate_stress": "Pa",
     "target_stress": "Pa",
     "volume": "m3",
-    "temperature": "m2/s2",
+    "granular_temperature": "m2/s2",
+    "temperature": "K",
+    "heat_flow": "W",
+    "mean_heat_flow": "W",
+    "applied_heat": "W",
+    "heat": "J",
     "stiffness": "N/m",
 }
+#: Those of the periodic cell, where its words mean something else.
+CELL = {"stiffness": "Pa", "servo_error": "Pa"}
 
 
 def unit_of(name: str) -> str:
@@ -71,7 +80,8 @@ def unit_of(name: str) -> str:
     Names of derived outputs and ``<insertion>.rate`` tell none: `Table.unit_of` knows those of a run or a record.
     """
     first, *words = name.split(".")
-    return next((UNITS[word] for word in reversed(words) if word in UNITS), FIRST.get(first, "1"))
+    units = {**UNITS, **CELL} if first == "cell" else UNITS
+    return next((units[word] for word in reversed(words) if word in units), FIRST.get(first, "1"))
 
 
 class ResultError(Exception):
@@ -116,16 +126,13 @@ class Table(Mapping[str, Vector]):
 
     def to_pandas(self) -> Any:
         """The table as a ``pandas.DataFrame`` over ``time``; ``frame.attrs["units"]`` has the units."""
-        import pandas
-
-        frame = pandas.DataFrame(self._columns)
+        frame = needed("pandas", "tables").DataFrame(self._columns)
         frame.attrs["units"] = {name: self.unit_of(name) for name in self}
         return frame.set_index("time") if "time" in self else frame
 
     def to_xarray(self) -> Any:
         """The table as an ``xarray.Dataset`` over ``time``; each variable has its unit in ``attrs["units"]``."""
-        import xarray
-
+        xarray = needed("xarray", "tables")
         time = "time" if "time" in self else "row"
         variables = {
             name: (time, values, {"units": self.unit_of(name)}) for name, values in self.items() if name != time
@@ -253,6 +260,22 @@ class Frame:
     def boundaries(self) -> Cloud | None:
         """The surfaces, facet by facet."""
         return self._read("boundaries")
+
+    @property
+    def clumps(self) -> Cloud | None:
+        """The clumps, a point each: mass centre, orientation, motion."""
+        return self._read("clumps")
+
+    @property
+    def cell(self) -> Cloud | None:
+        """The edges of the periodic cell, a line each."""
+        return self._read("cell")
+
+    @property
+    def edges(self) -> Matrix | None:
+        """The three edges of the periodic cell, a row each \\[m\\]; 0 where nothing repeats."""
+        cell = self.cell
+        return None if cell is None or len(cell) < 6 else cell.points[1:6:2] - cell.points[0:6:2]
 
 
 class Run:

@@ -47,7 +47,8 @@ class RigidBody:
     point, or a row for each). Every boundary has six directions of the interface: displacement.x, .y, .z,
     rotation.x, .y, .z.
     ``gravity`` \\[m/s²\\]; ``load(time)`` gives further forces at the mass centre and moments, six numbers in global
-    axes. With a ``pivot`` the body only turns about this point.
+    axes. With a ``pivot`` the body only turns about this point. ``velocity`` \\[m/s\\] of the mass centre and
+    ``angular_velocity`` \\[rad/s\\] are those at time 0; `place` sets them later.
 
     A step changes momentum and angular momentum by impulse and angular impulse of forces and moments, and turns the
     body through H times the mean of its angular velocities (in its own axes) at begin and end, at a constant rate in
@@ -70,6 +71,8 @@ class RigidBody:
         gravity: ArrayLike = (0.0, 0.0, 0.0),
         load: Callable[[float], ArrayLike] | None = None,
         pivot: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+        angular_velocity: ArrayLike | None = None,
     ) -> None:
         if not 0.0 < mass < np.inf:
             raise ValueError(f"mass: expected a finite number above 0, found {mass}")
@@ -96,7 +99,7 @@ class RigidBody:
         self._attitudes = [self._now.attitude] * len(points)  # of the boundaries
         self._tried: tuple[Step, Vector, _Motion] | None = None
         self._complied: tuple[Step, Matrix] | None = None
-        self.displacement = self._standing()
+        self.place(velocity=velocity, angular_velocity=angular_velocity)
 
     # What it is and does
 
@@ -201,12 +204,16 @@ class RigidBody:
         self._now, self.displacement = stood, displacement
         self._tried = self._complied = None
 
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, and where it stands."""
+        return {name: value for name, value in vars(self).items() if name not in ("_tried", "_complied")}
+
     def memory(self) -> Any:
-        """What changes."""
+        """The values that change in a step."""
         return tuple(vars(self._now).values()), {name: vars(self)[name] for name in _CHANGING}
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         now, others = memory
         self._now = _Motion(*now)
         vars(self).update(others)

@@ -17,6 +17,18 @@ from cograin.vector import Matrix, Vector, closing, is_sparse, solver, vector
 #: What the steps of a structure change.
 _CHANGING = ("position", "velocity", "displacement", "work", "load_work", "loss", "correction", "_apart")
 
+#: What is computed again where it is missing.
+_COMPUTED = (
+    "_solvers",
+    "_responses",
+    "_closings",
+    "_unforced",
+    "_kicked",
+    "_mass_solver",
+    "_kick_solvers",
+    "_quadratic_steps",
+)
+
 #: External forces on the degrees of freedom at a time [s] [N].
 Load = Callable[[float], ArrayLike]
 
@@ -148,12 +160,16 @@ class Structure:
         self._stand(displacement, force, step)
         self.work += float(force @ (displacement - begin))
 
+    def settings(self) -> dict[str, Any]:
+        """What it was made with, and where it stands."""
+        return {name: value for name, value in vars(self).items() if name not in _COMPUTED}
+
     def memory(self) -> Any:
-        """What changes."""
+        """The values that change in a step."""
         return {name: vars(self)[name] for name in _CHANGING}
 
     def recall(self, memory: Any) -> None:
-        """Has that again."""
+        """Restores what `memory` returned."""
         vars(self).update(memory)
         self._unforced = self._kicked = None
 

@@ -11,6 +11,11 @@ result.
 
 Or ``python -m cograin.study TABLE.csv SCENE -o DIR``. Each result is on the disk when it is known: a study that is
 broken off continues where it was, and a run that fails is a row with its message.
+
+A kept result counts as long as what made it is the same by content: the row, the scene or unit with every file that
+it names, options, the program, the function. What has changed is computed anew, and told; earlier results stay on the
+disk. Of a function of one's own code and values count, not the files that it reads: a class with ``__call__(row)`` and
+``identity(row)`` tells those.
 """
 
 from __future__ import annotations
@@ -18,7 +23,9 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import logging
 import os
+import re
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -29,6 +36,8 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from cograin.extras import needed
+from cograin.identity import Identity, differing, identity, of_file, of_program, of_scene, of_words
 from cograin.program import Program, ProgramError
 from cograin.results import ResultError, Run, reason
 
@@ -41,9 +50,18 @@ Work = Callable[[Row], Mapping[str, Value]]
 #: How often a run is tried whose process dies.
 TRIES = 3
 
+#: What makes a result and stands outside of Python, by the last part of its name.
+OUTSIDE = re.compile(r"(^|\.)(scene|unit|program|file [^\n]*)$")
+
+_log = logging.getLogger("cograin")
+
 
 class StudyError(Exception):
     """A table or a folder that a study cannot work with, and why."""
+
+
+class Changed(StudyError):
+    """What makes the results has changed while a study ran, or is another one where a run was made."""
 
 
 def grid(**values: Sequence[Value]) -> list[Row]:
@@ -168,16 +186,33 @@ class SceneRun:
     options: Sequence[str] = ()
     keep: bool = False
 
+    @property
+    def _command(self) -> Program:
+        return Program() if self.program is None else Program(self.program)
+
+    def identity(self, row: Row) -> Identity:
+        """What makes its result: scene and files, options, program, ``read``."""
+        folders = [Path(self.scene).parent, Path()]
+        return {
+            **of_scene(self.scene),
+            **of_words([*map(str, self.options), *_texts(row)], folders),
+            "options": str(list(map(str, self.options))),
+            "program": of_program(self._command.command),
+            **identity(self.read, "read"),
+            "keep": self.keep,
+        }
+
     def __call__(self, row: Row) -> Mapping[str, Value]:
         """Runs it with the values of a row."""
         import shutil
         import tempfile
 
-        program = Program() if self.program is None else Program(self.program)
+        # Progress would stand in the message of a run that fails.
+        quiet = [] if {"-q", "--quiet"} & set(map(str, self.options)) else ["--quiet"]
         settings = [word for key, value in row.items() for word in ("--set", f"{key}={_written(value)}")]
         folder = Path(tempfile.mkdtemp(prefix="cograin-study-"))
         try:
-            program("run", self.scene, *settings, "--threads", "1", "-o", folder / "run", *self.options)
+            self._command("run", self.scene, *settings, "--threads", "1", "-o", folder / "run", *quiet, *self.options)
             found = dict(self.read(Run(folder / "run")))
             return {**found, "folder": str(folder / "run")} if self.keep else found
         finally:
@@ -193,6 +228,11 @@ class UnitRun:
     step: float  # communication step [s]
     end: float  # [s]
     outputs: Sequence[str] | None = None
+
+    def identity(self, row: Row) -> Identity:
+        """What makes its result: the unit, the steps, the outputs."""
+        steps = {"unit": of_file(self.unit), "step": self.step, "end": self.end}
+        return {**steps, "outputs": str(None if self.outputs is None else list(self.outputs))}
 
     def __call__(self, row: Row) -> Mapping[str, Value]:
         """Steps it with the values of a row."""
@@ -218,6 +258,7 @@ class Result:
     values: dict[str, Value] = field(default_factory=dict)
     error: str = ""  # why there are no values
     seconds: float = 0.0  # that it took
+    made: Identity = field(default_factory=dict)  # what made it
 
     @property
     def failed(self) -> bool:
@@ -225,8 +266,37 @@ class Result:
         return bool(self.error)
 
 
-def _attempt(work: Work, row: Row) -> tuple[dict[str, Value], str, float]:
+def _made(work: Work, row: Row) -> Identity:
+    """What makes the result of a row."""
+    own = getattr(work, "identity", None)
+    return own(row) if callable(own) else identity(work, "work")
+
+
+def _texts(row: Row) -> list[str]:
+    """The values of a row that are texts."""
+    return [value for value in row.values() if isinstance(value, str)]
+
+
+def _unchanged(work: Work, row: Row, made: Identity) -> None:
+    """Refuses files, programs and code that are not those with which the study began."""
+    now = _made(work, row)
+    # Other values of Python may rightly differ between processes, such as those that a script has made meanwhile.
+    names = [name for name in {**made, **now} if name == "work" or OUTSIDE.search(name)]
+    there, here = ({name: each.get(name) for name in names} for each in (made, now))
+    if other := differing(there, here):
+        raise Changed(f"study: expected what it began with, found another: {', '.join(other)}; run it again")
+
+
+def _attempt(work: Work, row: Row, made: Identity) -> tuple[dict[str, Value], str, float]:
     """Values, or the reason why there are none, and the time that it took; what a process does."""
+    _unchanged(work, row, made)
+    values, error, seconds = _tried(work, row)
+    _unchanged(work, row, made)
+    return values, error, seconds
+
+
+def _tried(work: Work, row: Row) -> tuple[dict[str, Value], str, float]:
+    """Values, or the reason why there are none, and the time that it took."""
     began = time.monotonic()
     try:
         values = {str(key): _plain(value, str(key)) for key, value in work(row).items()}
@@ -251,14 +321,29 @@ class Study:
 
     def _read(self) -> None:
         """Takes over what an earlier study with this folder found. A last line that was cut off does not count."""
-        if not self.kept.is_file():
-            return
-        wanted = {_key(row) for row in self.rows}
+        self._made = {_key(row): _made(self.work, row) for row in self.rows}
+        self.results, self._whole = {}, 0
+        other: dict[str, Identity] = {}  # what made earlier results of these rows
+        if self.kept.is_file():
+            for result in self._lines():
+                key = _key(result.row)
+                if key in self._made and not differing(self._made[key], result.made):
+                    self.results[key] = result
+                elif key in self._made:
+                    other[key] = result.made
+        left = [key for key in other if key not in self.results]
+        if left:
+            differs = ", ".join(differing(self._made[left[0]], other[left[0]])[:5])
+            _log.warning("%s: %d results were made otherwise and are computed anew: %s", self.kept, len(left), differs)
+
+    def _lines(self) -> Iterator[Result]:
+        """The results in the file, whatever made them."""
         lines = self.kept.read_bytes().splitlines(keepends=True)
         for number, line in enumerate(lines, 1):
             try:
                 read = json.loads(line)
-                result = Result(dict(read["row"]), dict(read["values"]), str(read["error"]), float(read["seconds"]))
+                known = dict(read["row"]), dict(read["values"]), str(read["error"]), float(read["seconds"])
+                result = Result(*known, dict(read.get("made", {})))
             except (ValueError, KeyError, TypeError):
                 if number < len(lines) or line.endswith(b"\n"):
                     raise StudyError(
@@ -267,14 +352,13 @@ class Study:
                 continue
             if line.endswith(b"\n"):
                 self._whole += len(line)
-                if _key(result.row) in wanted:
-                    self.results[_key(result.row)] = result
+                yield result
 
     def _keep(self, result: Result) -> None:
         """Writes a result down, behind the last whole line."""
+        result.made = self._made[_key(result.row)]
         self.results[_key(result.row)] = result
-        line = {"row": result.row, "values": result.values, "error": result.error, "seconds": result.seconds}
-        data = (json.dumps(line) + "\n").encode()
+        data = (json.dumps(vars(result)) + "\n").encode()
         self.kept.touch()
         with self.kept.open("r+b") as file:
             file.truncate(self._whole)
@@ -293,12 +377,14 @@ class Study:
         sends the runs to its cluster instead. ``retry`` does those that failed once more.
         """
         self.folder.mkdir(parents=True, exist_ok=True)
+        if any(differing(self._made[_key(row)], _made(self.work, row)) for row in self.rows):
+            self._read()
         left = list({_key(row): row for row in self.rows if self._is_open(row, retry)}.values())
         progress = _Progress(len(self.rows), len(self.rows) - len(left), shown)
         if client is not None:
-            done = _on_cluster(client, self.work, left)
+            done = _on_cluster(client, self.work, left, self._made)
         else:
-            done = _on_cores(self.work, left, workers or os.cpu_count() or 1)
+            done = _on_cores(self.work, left, self._made, workers or os.cpu_count() or 1)
         for result in done:
             self._keep(result)
             progress.add(result)
@@ -314,28 +400,27 @@ class Study:
     def columns(self) -> dict[str, list[Any]]:
         """Values, results, error and seconds of every row that is done, by columns."""
         done = [self.results[_key(row)] for row in self.rows if _key(row) in self.results]
-        names = dict.fromkeys(name for result in done for name in result.values)
-        keys = list(self.rows[0])
-        columns: dict[str, list[Any]] = {key: [result.row[key] for result in done] for key in keys}
-        for name in names:
-            # An output may have the name of a key.
-            column = f"result.{name}" if name in columns else name
-            columns[column] = [result.values.get(name) for result in done]
+        columns: dict[str, list[Any]] = {}
+        own = ("error", "seconds")
+        for key in self.rows[0]:
+            columns[_free(key, "row", own)] = [result.row[key] for result in done]
+        # An output may have the name of a key, or of a column of the study itself.
+        for name in dict.fromkeys(name for result in done for name in result.values):
+            columns[_free(name, "result", [*columns, *own])] = [result.values.get(name) for result in done]
         columns["error"] = [result.error for result in done]
         columns["seconds"] = [result.seconds for result in done]
         return columns
 
     def to_pandas(self) -> Any:
         """The table as a ``pandas.DataFrame``."""
-        import pandas
-
-        return pandas.DataFrame(self.columns)
+        return needed("pandas", "study").DataFrame(self.columns)
 
     def save(self, path: str | Path) -> None:
         """Writes the table, whole or not at all: Parquet if the name ends so (by pandas and pyarrow), else CSV."""
         path = Path(path)
         part = path.with_name(f".{path.name}.part")
         if path.suffix == ".parquet":
+            needed("pyarrow", "study")
             self.to_pandas().to_parquet(part)
         else:
             columns = self.columns
@@ -347,12 +432,19 @@ class Study:
         part.replace(path)
 
 
+def _free(name: str, prefix: str, taken: Iterable[str]) -> str:
+    """The name of a column, with a prefix where another column has it."""
+    while name in taken:
+        name = f"{prefix}.{name}"
+    return name
+
+
 def _key(row: Row) -> str:
     """What tells rows apart."""
     return json.dumps(row, sort_keys=True)
 
 
-def _on_cores(work: Work, rows: list[Row], workers: int) -> Iterator[Result]:
+def _on_cores(work: Work, rows: list[Row], made: Mapping[str, Identity], workers: int) -> Iterator[Result]:
     """Results of rows, as they come, of processes on this machine. One that dies takes its own run with it alone."""
     tries = dict.fromkeys(map(_key, rows), 0)
     ahead = list(reversed(rows))
@@ -365,7 +457,7 @@ def _on_cores(work: Work, rows: list[Row], workers: int) -> Iterator[Result]:
                     while ahead and len(running) < workers:
                         row = ahead.pop()
                         try:
-                            running[pool.submit(_attempt, work, row)] = row
+                            running[pool.submit(_attempt, work, row, made[_key(row)])] = row
                         except BrokenProcessPool:
                             ahead.append(row)
                             raise
@@ -383,14 +475,17 @@ def _on_cores(work: Work, rows: list[Row], workers: int) -> Iterator[Result]:
                 workers = 1
 
 
-def _on_cluster(client: Any, work: Work, rows: list[Row]) -> Iterator[Result]:
+def _on_cluster(client: Any, work: Work, rows: list[Row], made: Mapping[str, Identity]) -> Iterator[Result]:
     """Results of rows, as they come, of the workers of a cluster; what a lost worker ran is run elsewhere."""
     from dask.distributed import as_completed
 
-    futures = {client.submit(_attempt, work, row, pure=False, retries=TRIES - 1): row for row in rows}
+    sending: dict[str, Any] = {"pure": False, "retries": TRIES - 1}
+    futures = {client.submit(_attempt, work, row, made[_key(row)], **sending): row for row in rows}
     for future in as_completed(list(futures)):
         try:
             values, error, seconds = future.result()
+        except Changed:
+            raise
         except Exception as failure:  # the cluster gave it up
             values, error, seconds = {}, f"{type(failure).__name__}: {failure}", 0.0
         yield Result(futures[future], values, error, seconds)

@@ -17,6 +17,7 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from cograin import interrupts
+from cograin.identity import of_file
 from cograin.nodes import Nodes
 from cograin.vector import Matrix, Vector
 
@@ -193,6 +194,25 @@ class Unit:
         """Whether it gives directional derivatives."""
         return bool(self.description.coSimulation.providesDirectionalDerivative)
 
+    def settings(self) -> dict[str, Any]:
+        """The file by its content, and the present values of parameters and inputs.
+
+        The number of threads is not among them: it changes no bit.
+        """
+        found: dict[str, Any] = {"name": self.name, "file": of_file(self.path)}
+        names = [name for name in (*self.names("parameter"), *self.names("input")) if name != "run.threads"]
+        real = self._real_of(names)
+        found.update({name: self[name] for name in names if self.variables[name].type != "Real"})
+        return {**found, **dict(zip(real, self.get(real).tolist(), strict=True))}
+
+    def outputs(self) -> Vector:
+        """Present values of all real outputs, in the order of the unit."""
+        return self.get(self._real_of(self.names("output")))
+
+    def _real_of(self, names: Sequence[str]) -> list[str]:
+        """The real variables among these."""
+        return [name for name in names if self.variables[name].type == "Real"]
+
     def variable(self, name: str) -> Any:
         """The description of a variable; an unknown name is answered with the nearest one."""
         try:
@@ -313,9 +333,12 @@ class Unit:
         final = fmpy.fmi2.fmi2False if self._states else fmpy.fmi2.fmi2True
         with interrupts.held():
             try:
-                self.slave.doStep(self.time, length, final)
+                with interrupts.ending(self._cancel):
+                    self.slave.doStep(self.time, length, final)
             except FMICallException as refusal:
                 if refusal.status != _PENDING or not self._waited():
+                    # A step that an interrupt ended is not one that the unit refused.
+                    interrupts.check()
                     raise self._refused(refusal.status, length) from None
             if until is not None:
                 self._origin, self._length, self._count = until, 0.0, 0
@@ -325,6 +348,11 @@ class Unit:
                 self._origin, self._length, self._count = self.time, length, 0
             self._count += 1
             self.time = self._origin + self._count * length
+
+    def _cancel(self) -> None:
+        """Ends the step that is under way in another thread. Only our own units are sure to allow it."""
+        if str(self.description.generationTool).startswith("cograin"):
+            self.slave.fmi2CancelStep(self.slave.component)
 
     def _waited(self) -> bool:
         """Waits for a step that the unit makes on its own; whether it was made."""

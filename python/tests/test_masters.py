@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import threading
+import time
 import zipfile
 from typing import ClassVar
 
@@ -340,6 +341,30 @@ def test_ctrl_c_in_a_step_of_the_unit_leaves_its_time_right(drop):
     drop.slave.doStep = real
     assert drop.time == 1e-3
     drop.step(1e-3)
+
+
+@pytest.mark.parametrize("way", ["unit", "secant", "gauss-seidel", "parallel"])
+def test_ctrl_c_ends_a_step_of_a_unit_that_takes_long(packaged, way):
+    # Minutes, were it made to its end.
+    length, short = 300.0, 1e-3
+    with Unit(packaged(DROP)) as unit, Unit(packaged(DROP), name="other") as other:
+        side = Interface(unit, FLOOR)
+        if way == "parallel":
+            side = side + Interface(other, FLOOR)
+        exchange = GaussSeidel() if way == "gauss-seidel" else QuasiNewton()
+        partner = Structure([1e3] * len(side.names), 1e9)
+        coupling = Coupling(side, partner, exchange, length, parallel=way == "parallel")
+        begun = time.monotonic()
+        timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            unit.step(length) if way == "unit" else coupling.run(length, progress=False)
+        assert time.monotonic() - begun < 30.0
+        assert unit.time == other.time == coupling.time == 0.0
+        timer.join()
+        unit.step(short)
+        other.step(short)
+        assert np.array_equal(unit.outputs(), other.outputs()), "nothing of the step that was ended is left"
 
 
 def test_a_partner_that_does_not_know_its_compliance_says_so_before_anything_moves(opened, piston):

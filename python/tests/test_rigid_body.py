@@ -90,6 +90,24 @@ def march(body, force, length, count):
     return body
 
 
+def test_a_body_begins_with_the_velocities_that_it_is_given():
+    placed = RigidBody(2.0, [0.1, 0.2, 0.3], centre=[0.1, 0.0, 0.2])
+    placed.place(velocity=[1.0, 2.0, 3.0], angular_velocity=[4.0, 5.0, 6.0])
+    given = RigidBody(2.0, [0.1, 0.2, 0.3], centre=[0.1, 0.0, 0.2], velocity=[1, 2, 3], angular_velocity=[4, 5, 6])
+    step = Step(0.0, 1e-3, 1e-3)
+    assert np.array_equal(given.predict(np.zeros(6), step), placed.predict(np.zeros(6), step))
+    assert np.allclose(given.velocity, [1.0, 2.0, 3.0]) and np.allclose(given.angular_velocity, [4.0, 5.0, 6.0])
+    turning = RigidBody(2.0, 0.1, pivot=[0.0, 0.0, 1.0], angular_velocity=[0.0, 1.0, 0.0])
+    assert np.allclose(turning.angular_velocity, [0.0, 1.0, 0.0])
+    for named in (
+        {"velocity": [1.0, 0.0]},
+        {"angular_velocity": [np.nan] * 3},
+        {"velocity": [1.0] * 3, "pivot": [0.0] * 3},
+    ):
+        with pytest.raises(ValueError, match=r"expected (three finite numbers|rotation and angular_velocity alone)"):
+            RigidBody(1.0, 1.0, **named)
+
+
 def test_a_free_top_follows_its_closed_form_in_second_order_and_loses_nothing():
     across, along, end = 2.0, 0.5, 6.0
     spin = np.array([1.2, 0.0, 4.0])

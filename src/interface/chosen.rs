@@ -48,13 +48,19 @@ fn stands_for(pattern: &str, name: &str) -> bool {
     left.ends_with(rest)
 }
 
-/// Indices of the outputs among these variables that names stand for, in the order of the names, each once.
-fn outputs_of(variables: &[Variable], names: &[String]) -> Vec<usize> {
+/// What a run may record.
+const RECORDED: [Causality; 2] = [Causality::Output, Causality::Input];
+
+/// What may be summed.
+const SUMMED: [Causality; 1] = [Causality::Output];
+
+/// Indices of the variables of these kinds that names stand for, in the order of the names, each once.
+fn meant(variables: &[Variable], kinds: &[Causality], names: &[String]) -> Vec<usize> {
     let mut taken = vec![false; variables.len()];
     let mut chosen = Vec::new();
     for name in names {
         for (index, variable) in variables.iter().enumerate() {
-            let is_meant = variable.causality == Causality::Output && stands_for(name, &variable.name);
+            let is_meant = kinds.contains(&variable.causality) && stands_for(name, &variable.name);
             if is_meant && !std::mem::replace(&mut taken[index], true) {
                 chosen.push(index);
             }
@@ -66,7 +72,7 @@ fn outputs_of(variables: &[Variable], names: &[String]) -> Vec<usize> {
 /// The sums that a scene asks for, of these variables.
 pub(super) fn derived(scene: &Scene, variables: &[Variable]) -> Vec<Variable> {
     let derived = scene.derived.iter().map(|derived| {
-        let terms = outputs_of(variables, &derived.sum);
+        let terms = meant(variables, &SUMMED, &derived.sum);
         let quantity = terms.first().map_or(Quantity::Ratio, |&first| variables[first].quantity);
         let names: Vec<&str> = terms.iter().take(3).map(|&term| variables[term].name.as_str()).collect();
         let more = if terms.len() > names.len() { ", .." } else { "" };
@@ -86,11 +92,11 @@ pub(super) fn derived(scene: &Scene, variables: &[Variable]) -> Vec<Variable> {
     derived.collect()
 }
 
-/// Indices of the outputs that a run records: those that the scene names, or all but those of single nodes and, where there are
+/// Indices of what a run records: the outputs and inputs that the scene names, or all outputs but those of single nodes and, where there are
 /// very many, of groups of particles.
 pub(super) fn recorded(scene: &Scene, variables: &[Variable]) -> Vec<usize> {
     if let Some(columns) = &scene.output.columns {
-        return outputs_of(variables, columns);
+        return meant(variables, &RECORDED, columns);
     }
     let all = |with_groups: bool| {
         let is_recorded = |variable: &Variable| {
@@ -111,9 +117,9 @@ impl Interface {
             all.iter().filter(|variable| !matches!(variable.source, Source::Derived(_))).cloned().collect();
         for derived in &scene.derived {
             let place = format!("[derived.{}] sum", derived.name);
-            known(&place, &derived.sum, &simple)?;
+            known(&place, &derived.sum, (&simple, &SUMMED))?;
             let unit = |index: usize| (simple[index].name.clone(), simple[index].quantity.unit().unwrap_or("count"));
-            let terms = outputs_of(&simple, &derived.sum);
+            let terms = meant(&simple, &SUMMED, &derived.sum);
             let (first, others) = terms.split_first().map_or((None, &[][..]), |(first, others)| (Some(*first), others));
             let Some(first) = first else { continue };
             let differs = |term: &&usize| simple[**term].quantity.unit() != simple[first].quantity.unit();
@@ -121,17 +127,17 @@ impl Interface {
                 return Err(ChosenError::Units { place, first: unit(first), other: unit(other) });
             }
         }
-        known("[output] columns", scene.output.columns.as_deref().unwrap_or_default(), all)
+        known("[output] columns", scene.output.columns.as_deref().unwrap_or_default(), (all, &RECORDED))
     }
 }
 
-/// Refuses names that stand for none of these variables' outputs.
-fn known(place: &str, names: &[String], variables: &[Variable]) -> Result<(), ChosenError> {
-    let outputs = || variables.iter().filter(|variable| variable.causality == Causality::Output);
-    match names.iter().find(|name| !outputs().any(|variable| stands_for(name, &variable.name))) {
+/// Refuses names that stand for none of these variables of these kinds.
+fn known(place: &str, names: &[String], (variables, kinds): (&[Variable], &[Causality])) -> Result<(), ChosenError> {
+    let able = || variables.iter().filter(|variable| kinds.contains(&variable.causality));
+    match names.iter().find(|name| !able().any(|variable| stands_for(name, &variable.name))) {
         None => Ok(()),
         Some(found) => {
-            let known = outputs().map(|variable| variable.name.clone()).collect();
+            let known = able().map(|variable| variable.name.clone()).collect();
             Err(ChosenError::Unknown { place: place.to_owned(), found: found.clone(), known })
         }
     }

@@ -158,7 +158,7 @@ pub struct Interface {
     variables: Vec<Variable>,
     /// How each is read.
     readers: Vec<Reader>,
-    /// Indices of the outputs that a run records.
+    /// Indices of the outputs and inputs that a run records.
     recorded: Vec<usize>,
 }
 
@@ -200,7 +200,7 @@ impl Interface {
         self.of_causality(Causality::Output)
     }
 
-    /// The outputs that a run records, each with its index: those that the scene names, or all but those of single nodes and, beyond
+    /// What a run records, each with its index: the outputs and inputs that the scene names, or all outputs but those of single nodes and, beyond
     /// [`MOST_COLUMNS`], of groups of particles.
     pub fn recorded(&self) -> impl Iterator<Item = (usize, &Variable)> {
         self.recorded.iter().map(|&index| (index, &self.variables[index]))

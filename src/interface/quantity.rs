@@ -9,6 +9,8 @@ pub struct BaseUnits {
     pub metre: i32,
     /// Of the second.
     pub second: i32,
+    /// Of the kelvin.
+    pub kelvin: i32,
     /// Of the radian.
     pub radian: i32,
 }
@@ -35,9 +37,10 @@ impl Type {
     }
 }
 
-/// Declares the quantities: name, symbol of the unit, exponents of kilogram, metre, second and radian.
+/// Declares the quantities: name, symbol of the unit, exponents of kilogram, metre, second and radian, and of the
+/// kelvin where it is in the unit.
 macro_rules! quantities {
-    ($($(#[$doc:meta])* $name:ident $unit:expr, $kilogram:literal $metre:literal $second:literal $radian:literal;)+) => {
+    ($($(#[$doc:meta])* $name:ident $unit:expr, $kilogram:literal $metre:literal $second:literal $radian:literal $($kelvin:literal)?;)+) => {
         /// What a variable measures.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Quantity {
@@ -60,9 +63,9 @@ macro_rules! quantities {
 
             /// Its unit in SI base units.
             pub fn base_units(self) -> BaseUnits {
-                let (kilogram, metre, second, radian) =
-                    match self { $(Self::$name => ($kilogram, $metre, $second, $radian),)+ };
-                BaseUnits { kilogram, metre, second, radian }
+                let (kilogram, metre, second, radian, kelvin) =
+                    match self { $(Self::$name => ($kilogram, $metre, $second, $radian, 0 $(+ $kelvin)?),)+ };
+                BaseUnits { kilogram, metre, second, kelvin, radian }
             }
         }
     };
@@ -115,6 +118,16 @@ quantities! {
     MassFlow Some("kg/s"), 1 0 -1 0;
     /// Force over velocity and mass \[1/s\]
     DampingRate Some("1/s"), 0 0 -1 0;
+    /// Temperature \[K\]
+    Temperature Some("K"), 0 0 0 0 1;
+    /// Heat over time \[W\]
+    HeatFlow Some("W"), 1 2 -3 0;
+    /// Conductivity \[W/(m K)\]
+    Conductivity Some("W/(m.K)"), 1 1 -3 0 -1;
+    /// Heat over mass and temperature \[J/(kg K)\]
+    SpecificHeat Some("J/(kg.K)"), 0 2 -2 0 -1;
+    /// Heat flow over area and temperature \[W/(m² K)\]
+    HeatTransferCoefficient Some("W/(m2.K)"), 1 0 -3 0 -1;
     /// A number of things over time \[1/s\]
     CountRate Some("1/s"), 0 0 -1 0;
     /// Force over velocity, mass and length \[1/(m s)\]
@@ -135,7 +148,7 @@ impl Quantity {
         }
     }
 
-    /// That of a parameter with this unit; a whole number without one.
+    /// The quantity of a parameter with this unit; a whole number without one.
     pub(super) fn of_unit(unit: Option<&str>) -> Self {
         Self::ALL.iter().copied().find(|quantity| quantity.unit() == unit).unwrap_or(Self::Ratio)
     }

@@ -15,7 +15,7 @@ pub(super) struct Reader {
 }
 
 impl Reader {
-    /// That of a variable.
+    /// The reader of a variable.
     pub(super) fn of(variable: &Variable) -> Self {
         let (read, at) = match &variable.source {
             Source::Row(Place { row, at }) => (Some(row.read), *at),

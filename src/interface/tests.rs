@@ -26,6 +26,7 @@ fn draft() -> SceneDraft {
         reference: [0.0; 3],
         body: Body::default(),
         outside: Outside::default(),
+        temperature: Default::default(),
     };
     let sphere = Particle {
         id: ParticleId(7),
@@ -38,7 +39,13 @@ fn draft() -> SceneDraft {
         velocity: [0.0; 3],
         angular_velocity: [0.0; 3],
     };
-    let stone = Material { name: "stone".to_owned(), density: 6.0, youngs_modulus: None, poissons_ratio: None };
+    let stone = Material {
+        name: "stone".to_owned(),
+        density: 6.0,
+        youngs_modulus: None,
+        poissons_ratio: None,
+        thermal: Default::default(),
+    };
     use AxisMotion::{Driven, Fixed, Prescribed};
     SceneDraft {
         materials: vec![stone],

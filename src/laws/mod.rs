@@ -1,6 +1,7 @@
 //! What bodies do to each other, what a boundary is and how it moves: pure functions. `unsafe` stands in `contact/batch` alone.
 
 pub mod bond;
+pub mod column;
 pub mod contact;
 mod kept;
 pub mod motion;

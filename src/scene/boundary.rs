@@ -1,6 +1,6 @@
 //! `[boundary.<name>]`
 
-use super::{AxisMotion, Body, InputCourse, NodeMotion, Outside, Shape};
+use super::{AxisMotion, Body, BoundaryTemperature, InputCourse, NodeMotion, Outside, Shape};
 
 /// `[boundary.<name>]`: where the outside world acts on the particles.
 #[derive(Clone, Debug)]
@@ -21,6 +21,8 @@ pub struct Boundary {
     pub body: Body,
     /// What happens to a particle whose centre came through it.
     pub outside: Outside,
+    /// Its temperature.
+    pub temperature: BoundaryTemperature,
 }
 
 impl Boundary {

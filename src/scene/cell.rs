@@ -20,7 +20,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Sine of an angle below which an edge lies in a plane.
 const ALONG: f64 = 1e-9;
 
-/// So many images of a particle along an edge are made at most, and on each side so many copies of a surface.
+/// Most images of a particle along an edge, and most copies of a surface on each side.
 const MOST_IMAGES: f64 = 10.0;
 
 /// A periodic cell.

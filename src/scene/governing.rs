@@ -43,7 +43,7 @@ impl SceneDraft {
     pub fn law(&self, law: usize) -> Law {
         let law = Law::of(&self.contacts[law].choice);
         let law = if self.records_contacts() { law.recorded() } else { law };
-        if self.output.losses { law.booked() } else { law }
+        if self.output.losses { law.booked().warming(self.heat.from_losses) } else { law }
     }
 
     /// Whether an output takes forces of single contacts.

@@ -10,10 +10,12 @@ mod boundary;
 pub(crate) mod cell;
 mod checked;
 pub(crate) mod clump;
+mod column;
 mod damping;
 pub mod exchange;
 pub(crate) mod file;
 mod governing;
+pub(crate) mod heat;
 pub(crate) mod import;
 mod models;
 mod output;
@@ -37,10 +39,12 @@ pub use boundary::Boundary;
 pub use cell::{Cell, CellMotion, StressServo};
 pub use checked::Scene;
 pub use clump::{Clump, ClumpShape, OrientationKey};
+pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
+pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
 pub use output::Output;
@@ -54,7 +58,7 @@ pub use region::Region;
 pub use source::Source;
 
 use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
-use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme};
+use crate::laws::contact::{HeatModel, LawChoice, Material, PairProperties, Scheme};
 
 /// Everything that a scene says, in SI units, before it is checked as a whole.
 ///
@@ -65,7 +69,7 @@ use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme};
 /// use cograin::quantity::{MaterialIndex, ParticleId, SetIndex};
 /// use cograin::scene::{Particle, SceneDraft};
 ///
-/// let glass = Material { name: "glass".into(), density: 2500.0, youngs_modulus: None, poissons_ratio: None };
+/// let glass = Material { name: "glass".into(), density: 2500.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default() };
 /// let marble = Particle {
 ///     id: ParticleId(1), set: SetIndex(0), material: MaterialIndex(0), shape: Default::default(), radius: 0.01,
 ///     density: 2500.0, position: [0.0, 0.0, 0.02], velocity: [0.0; 3], angular_velocity: [0.0; 3],
@@ -103,6 +107,8 @@ pub struct SceneDraft {
     pub sets: Vec<String>,
     /// All particles of all sets, by ascending id.
     pub particles: Vec<Particle>,
+    /// Declared columns that the scene asks for, and what they begin with.
+    pub columns: Vec<ColumnStart>,
     /// Shapes of clumps, in the order of the file.
     pub clump_shapes: Vec<ClumpShape>,
     /// Clumps, whose spheres are among the particles.
@@ -113,6 +119,10 @@ pub struct SceneDraft {
     pub damping: Vec<Damping>,
     /// Constant forces on particles.
     pub forces: Vec<AppliedForce>,
+    /// How heat flows.
+    pub heat: HeatSettings,
+    /// What warms or cools particles, in the order of the file.
+    pub heat_sources: Vec<HeatSource>,
     /// Parts of space of which stress, porosity and motion are outputs, in the order of the file.
     pub regions: Vec<Region>,
     /// The box that particles may not leave \[m\]: lower and upper corner.
@@ -137,6 +147,8 @@ pub struct SceneDraft {
     pub parameters: Vec<Parameter>,
     /// Fingerprint of the text, every file it names and the program's version; 0 for a scene built in code.
     pub fingerprint: u64,
+    /// The text and every file that it names, each with a fingerprint of its own; empty for a scene built in code.
+    pub parts: Vec<(String, u64)>,
     /// Keys of the text that nothing reads, and why.
     pub unread: Vec<String>,
 }
@@ -154,6 +166,8 @@ pub struct Run {
     pub scheme: Scheme,
     /// Whether a given step above the stable one may run on.
     pub allow_unstable: bool,
+    /// Whether a run stops where the stable step falls below a given one, instead of dividing it.
+    pub strict_step: bool,
     /// Threads; `None`: as many as the machine offers.
     pub threads: Option<usize>,
     /// Seed of everything random.
@@ -182,6 +196,7 @@ impl Default for Run {
             accuracy: Accuracy::Standard,
             scheme: Scheme::default(),
             allow_unstable: false,
+            strict_step: false,
             threads: None,
             seed: 1,
             skin: None,
@@ -225,6 +240,8 @@ pub struct ContactLaw {
     pub between: Vec<bool>,
     /// Its sub-models and switches; its scheme is that of [`SceneDraft::run`].
     pub choice: LawChoice,
+    /// Its heat sub-model; none where its contacts conduct nothing.
+    pub heat: Option<HeatModel>,
 }
 
 /// `[bond.<name>]`: a bond law and the particles it is for.

@@ -1,9 +1,10 @@
 //! The sub-models, rules of breakage and shapes that scenes may name.
 
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
+use crate::laws::column::{Column, TEMPERATURE};
 use crate::laws::contact::{
-    self, Cohesion, CohesionModel, CohesionRow, ModelKeys, ModelRow, Normal, NormalModel, NormalRow, Rolling,
-    RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
+    self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel,
+    NormalRow, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
 };
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
 
@@ -27,10 +28,14 @@ pub struct Models {
     pub(crate) rolling: Vec<&'static RollingRow>,
     /// Cohesion sub-models.
     pub(crate) cohesion: Vec<&'static CohesionRow>,
+    /// Heat sub-models.
+    pub(crate) heat: Vec<&'static HeatRow>,
     /// Rules of breakage.
     pub(crate) breakage: Vec<&'static BreakageRow>,
     /// Shapes of boundaries.
     pub(crate) shapes: Vec<&'static ShapeRow>,
+    /// Columns of particles that scenes may ask for.
+    pub(crate) columns: Vec<&'static Column>,
 }
 
 impl Default for Models {
@@ -47,8 +52,10 @@ impl Models {
             tangential: contact::tangential::STANDARD.to_vec(),
             rolling: contact::rolling::STANDARD.to_vec(),
             cohesion: contact::cohesion::STANDARD.to_vec(),
+            heat: contact::heat::STANDARD.to_vec(),
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
+            columns: vec![&TEMPERATURE],
         }
     }
 
@@ -76,6 +83,12 @@ impl Models {
         self
     }
 
+    /// The same and a heat sub-model, in place of one of the same name.
+    pub fn with_heat<M: Heat>(mut self) -> Self {
+        put(&mut self.heat, HeatRow::of::<M>(), ModelRow::name);
+        self
+    }
+
     /// The same and a rule of breakage, behind the others, in place of one of the same name.
     pub fn with_breakage<B: Breakage>(mut self) -> Self {
         put(&mut self.breakage, BreakageRow::of::<B>(), BreakageRow::name);
@@ -85,6 +98,12 @@ impl Models {
     /// The same and a shape of boundaries, in place of one of the same key.
     pub fn with_shape<K: ShapeKeys>(mut self) -> Self {
         put(&mut self.shapes, ShapeRow::of::<K>(), |row| row.key);
+        self
+    }
+
+    /// The same and a column of particles, in place of one of the same name.
+    pub fn with_column(mut self, column: &'static Column) -> Self {
+        put(&mut self.columns, column, |column| column.name);
         self
     }
 
@@ -108,6 +127,11 @@ impl Models {
         self.cohesion.iter().find(|row| row.name() == name)?.with(keys)
     }
 
+    /// The heat sub-model of this name with these keys, if there is one and they are of its type.
+    pub fn heat<K: ModelKeys>(&self, name: &str, keys: K) -> Option<HeatModel> {
+        self.heat.iter().find(|row| row.name() == name)?.with(keys)
+    }
+
     /// Names of the normal sub-models.
     pub fn normal_names(&self) -> Vec<&'static str> {
         names(&self.normal)
@@ -126,6 +150,11 @@ impl Models {
     /// Names of the cohesion sub-models.
     pub fn cohesion_names(&self) -> Vec<&'static str> {
         names(&self.cohesion)
+    }
+
+    /// Names of the heat sub-models.
+    pub fn heat_names(&self) -> Vec<&'static str> {
+        names(&self.heat)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use xxhash_rust::xxh3::Xxh3;
+use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
 /// Everything that is needed to read a scene again, elsewhere: its text and the files that it names.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -30,5 +30,12 @@ impl Source {
             part(bytes);
         }
         hash.digest().max(1)
+    }
+
+    /// What it consists of, each part with a fingerprint of its own: so that a message can say which differs.
+    pub(crate) fn parts(&self) -> Vec<(String, u64)> {
+        let text = ("its text or settings".to_owned(), xxh3_64(self.text.as_bytes()));
+        let files = self.files.iter().map(|(name, bytes)| (format!("the file {name}"), xxh3_64(bytes)));
+        std::iter::once(text).chain(files).collect()
     }
 }

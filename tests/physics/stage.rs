@@ -47,6 +47,7 @@ pub(crate) fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {
         density: 1.0,
         youngs_modulus: Some(youngs_modulus),
         poissons_ratio: Some(poissons_ratio),
+        thermal: Default::default(),
     }
 }
 
@@ -90,6 +91,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
         reference: point,
         body: Body::default(),
         outside: Outside::default(),
+        temperature: Default::default(),
     }
 }
 
@@ -107,7 +109,7 @@ pub(crate) fn scene(
     let numbered = particles.into_iter().zip(0..).map(|(particle, id)| Particle { id: ParticleId(id), ..particle });
     SceneDraft {
         run: Run { step: Step::Given(step), threads: Some(1), scheme: law.scheme, ..Run::default() },
-        contacts: vec![ContactLaw { name: "contact".into(), between: vec![true; pairs], choice: law }],
+        contacts: vec![ContactLaw { name: "contact".into(), between: vec![true; pairs], choice: law, heat: None }],
         pairs: vec![properties; pairs],
         materials,
         bonds: Vec::new(),

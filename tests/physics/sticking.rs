@@ -1,7 +1,7 @@
 //! Sticky spheres part with the work that the theory says.
 //!
 //! Sources: C. Thornton & Z. Ning, *Powder Technol.* 99 (1998) 154–162: the work 7.09 (Γ⁵ R*⁴/E*²)^(1/3) and the sticking speed that
-//! follows from it, Γ = 2 γ. What was wrong: a contact could end at the largest pull only, where half of this work is done.
+//! follows from it, Γ = 2 γ. A contact that ends at the largest pull does half of this work.
 
 use crate::support::start;
 use std::f64::consts::PI;

@@ -1,8 +1,7 @@
 //! Random scenes with the default time step against the same with a tenth of it: energies, momenta and impulses on walls
 //! agree, or the run stops in words. `cargo bench --bench random_scenes` tries 200 of them.
 //!
-//! What was wrong: the default step was silently too long where boundaries were driven, where bonds had dashpots and where
-//! they were made later.
+//! The scenes have driven boundaries, bonds with dashpots and bonds that are made later.
 
 mod compare;
 mod scenes;

@@ -1,5 +1,5 @@
-//! The bound for impacts to come is that of the hardest two bodies that can meet. What was wrong: the modulus of two steel bodies, of which
-//! there was one, was applied to the lightest grain.
+//! The bound for impacts to come is that of the hardest two bodies that can meet: a single body of steel never counts as two, nor its
+//! modulus as that of the lightest grain.
 
 use super::stated;
 use crate::support::checked;

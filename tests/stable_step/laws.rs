@@ -1,7 +1,6 @@
 //! Every contact law between two planes: the stated stable step against the true one.
 //!
-//! A sphere that two planes press stands still but for trials in all its freedoms. What was wrong: with the dashpot of `epsd` the stated step was
-//! 1.44 to 2.55 times the true one.
+//! A sphere that two planes press stands still but for trials in all its freedoms. The dashpot of `epsd` is one of what limits it.
 
 use super::linearised::{largest_step, measured, scaled};
 use super::{stated, with_step};

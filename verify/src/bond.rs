@@ -242,6 +242,7 @@ impl Types<'_> {
             breakage: vec![self.breakage()?],
             damping: self.damping()?,
             relaxation,
+            conductivity: None,
             temperature_break: None,
         })
     }

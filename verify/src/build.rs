@@ -3,13 +3,14 @@
 use super::bond;
 use super::case::{Axis, Case, GlobalDamping, Scale, Wall, WallMotion};
 use super::error::Mistake;
+use super::heat;
 use super::law;
 use cograin::bond::keys::FormulationChoice;
 use cograin::contact::MaterialPair;
 use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Positive, SetIndex};
 use cograin::scene::{
-    AppliedForce, AxisMotion, Body, Boundary, ContactLaw, Damping, InputCourse, NodeMotion, Outside, Particle,
-    ParticleShape, Run, Scene, SceneDraft, Shape, Step,
+    AppliedForce, AxisMotion, Body, Boundary, BoundaryTemperature, ContactLaw, Damping, HeatSettings, InputCourse,
+    NodeMotion, Outside, Particle, ParticleShape, Run, Scene, SceneDraft, Shape, Step,
 };
 use cograin::surface::{Group, Plane, cylinder, mesh};
 use std::collections::BTreeMap;
@@ -33,7 +34,8 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
             return Err(law::absent(missing[0].key));
         }
     }
-    let contact = ContactLaw { name: "contact".into(), between: vec![true; pairs.len()], choice: law };
+    let contact =
+        ContactLaw { name: "contact".into(), between: vec![true; pairs.len()], choice: law, heat: heat::model(case)? };
     let particles = particles(case)?;
     let index_of = particles.iter().map(|particle| particle.id.0).zip(0..).collect();
     let draft = SceneDraft {
@@ -55,6 +57,9 @@ pub(super) fn scene(case: &Case, folder: &Path, formulation: FormulationChoice) 
         sets: (0..case.materials.len()).map(bond::set_name).collect(),
         damping: damping(case, &particles)?,
         forces: forces(case, &index_of)?,
+        columns: heat::columns(case)?,
+        heat: HeatSettings { frozen: case.frozen, ..HeatSettings::default() },
+        heat_sources: heat::sources(case, &index_of)?,
         particles,
         ..SceneDraft::default()
     };
@@ -140,8 +145,21 @@ fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Resu
             reference: case.particles[case.by_id()[first]].position,
             body: Body::default(),
             outside: Outside::default(),
+            temperature: BoundaryTemperature::None,
         });
     }
+    let held = |member: u32| Boundary {
+        name: format!("held{member}"),
+        shape: Shape::of(Group { members: vec![member] }),
+        axes: [const { AxisMotion::Fixed }; 6],
+        nodes: NodeMotion::Rigid,
+        input: InputCourse::Ramp,
+        reference: case.particles[case.by_id()[member as usize]].position,
+        body: Body::default(),
+        outside: Outside::default(),
+        temperature: BoundaryTemperature::None,
+    };
+    all.extend(heat::held(case, index_of, &held)?);
     Ok(all)
 }
 
@@ -191,6 +209,7 @@ fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Bou
         reference,
         body: Body::default(),
         outside: Outside::default(),
+        temperature: heat::of_wall(wall.temperature),
     })
 }
 
@@ -235,11 +254,12 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
         reference: point,
         body: Body::default(),
         outside: Outside::default(),
+        temperature: heat::of_wall(wall.temperature),
     })
 }
 
 /// Indices into the scene's particles, ascending.
-fn members(place: &str, ids: &[u32], index_of: &BTreeMap<u32, u32>) -> Result<Vec<u32>, Mistake> {
+pub(super) fn members(place: &str, ids: &[u32], index_of: &BTreeMap<u32, u32>) -> Result<Vec<u32>, Mistake> {
     let index = |id: &u32| {
         let found = index_of.get(id).copied();
         found

@@ -44,6 +44,15 @@ pub(super) struct Case {
     /// Particles that do not move by forces.
     #[serde(default)]
     pub(super) prescribed_motion: Vec<PrescribedMotion>,
+    /// Whether heat flows while nothing moves.
+    #[serde(default)]
+    pub(super) frozen: bool,
+    /// Particles that are held at a temperature.
+    #[serde(default)]
+    pub(super) held_temperatures: Vec<HeldTemperature>,
+    /// What warms particles.
+    #[serde(default)]
+    pub(super) heat_sources: Vec<CaseHeatSource>,
     /// How far an independent integration of the same equations is from the samples.
     #[serde(default)]
     pub(super) reproducible: Reproducible,
@@ -69,6 +78,12 @@ pub(super) struct Material {
     pub(super) youngs_modulus: Option<f64>,
     /// \[1\]
     pub(super) poissons_ratio: Option<f64>,
+    /// \[W/(m K)\]
+    pub(super) conductivity: Option<f64>,
+    /// \[J/(kg K)\]
+    pub(super) specific_heat: Option<f64>,
+    /// Young's modulus of the real bodies \[Pa\].
+    pub(super) real_youngs_modulus: Option<f64>,
 }
 
 /// The sub-models and flags, in the words of the other engine.
@@ -117,9 +132,44 @@ pub(super) struct Model {
     /// The combination in the old notation; informs the reader.
     #[serde(default, rename = "seed_style")]
     pub(super) _seed_style: Option<String>,
+    /// Heat sub-model, by our name.
+    pub(super) heat: Option<String>,
+    /// The area of `overlap_area`, where it is not that of intersection.
+    pub(super) heat_area: Option<Conducted>,
     /// Flags that are not known here.
     #[serde(flatten)]
     pub(super) others: BTreeMap<String, serde_json::Value>,
+}
+
+/// An area: a number \[m²\], or the name of one.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(untagged)]
+pub(super) enum Conducted {
+    /// As given.
+    Given(f64),
+    /// `projection`
+    Named(String),
+}
+
+/// Particles that are held at a temperature.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct HeldTemperature {
+    /// These.
+    pub(super) ids: Vec<u32>,
+    /// \[K\]
+    pub(super) temperature: f64,
+}
+
+/// What warms particles.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct CaseHeatSource {
+    /// These.
+    pub(super) ids: Vec<u32>,
+    /// Heat flow into each \[W\].
+    #[serde(default)]
+    pub(super) power: f64,
+    /// Temperature of the surroundings \[K\] and conductance to each \[W/K\].
+    pub(super) ambient: Option<[f64; 2]>,
 }
 
 /// A sphere.
@@ -142,6 +192,8 @@ pub(super) struct Particle {
     /// \[rad/s\]
     #[serde(default)]
     pub(super) omega: [f64; 3],
+    /// \[K\]
+    pub(super) temperature: Option<f64>,
 }
 
 /// An axis: by its name, or a direction along it.
@@ -198,6 +250,8 @@ pub(super) struct Wall {
     pub(super) joined_with: Vec<String>,
     /// How it moves.
     pub(super) motion: Option<WallMotion>,
+    /// Temperature at which it is held \[K\].
+    pub(super) temperature: Option<f64>,
     /// Its material, from 1.
     #[serde(rename = "type")]
     pub(super) material: usize,

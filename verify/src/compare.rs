@@ -1,6 +1,7 @@
 //! How far two trajectories are apart.
 
 use super::case::Case;
+use super::heat::HeatErrors;
 use super::linked::LinkErrors;
 use super::samples::Samples;
 use super::surfaces::SurfaceErrors;
@@ -71,6 +72,8 @@ pub struct Report {
     pub links: Option<LinkErrors>,
     /// How far the loads on its surfaces are from another program's; `None` for a case without a record of them.
     pub surfaces: Option<SurfaceErrors>,
+    /// How far its temperatures are from theirs; `None` for a case without a record of them.
+    pub heat: Option<HeatErrors>,
     /// Why the run stopped before its end.
     pub stopped: Option<String>,
 }
@@ -104,7 +107,8 @@ impl Report {
     pub fn passed(&self) -> bool {
         let links = self.links.is_none_or(|links| links.passed());
         let surfaces = self.surfaces.is_none_or(|surfaces| surfaces.passed());
-        self.stopped.is_none() && links && surfaces && self.errors.is_none_or(|errors| errors.passed())
+        let heat = self.heat.is_none_or(|heat| heat.passed());
+        self.stopped.is_none() && links && surfaces && heat && self.errors.is_none_or(|errors| errors.passed())
     }
 }
 
@@ -122,6 +126,9 @@ impl fmt::Display for Report {
         }
         if let Some(surfaces) = &self.surfaces {
             write!(formatter, " {surfaces}")?;
+        }
+        if let Some(heat) = &self.heat {
+            write!(formatter, " {heat}")?;
         }
         write!(formatter, " {}", if self.passed() { "ok" } else { "FAIL" })?;
         match &self.stopped {

@@ -8,12 +8,12 @@ use cograin::contact::cohesion::sjkr;
 use cograin::contact::normal::{eepa, hooke, hooke_stiffness, jkr, sticky};
 use cograin::contact::rolling::rocking;
 use cograin::contact::tangential::turned_history::Keys as Turned;
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches};
+use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches, Thermal};
 use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
 use cograin::scene::Models;
 
 /// The other engine's name of each pair property, with ours.
-const PROPERTIES: [(&str, &str); 21] = [
+const PROPERTIES: [(&str, &str); 23] = [
     ("coefficientRestitution", "restitution"),
     ("coefficientFriction", "friction"),
     ("coefficientRollingFriction", "rolling_friction"),
@@ -35,6 +35,8 @@ const PROPERTIES: [(&str, &str); 21] = [
     ("UnloadingStiffness", "unloading_stiffness_ratio"),
     ("pullOffForce", "pull_off_force"),
     ("coefficientAdhesionStiffness", "adhesion_stiffness_ratio"),
+    ("thermalConductivity", "conductivity"),
+    ("heatTransferCoefficient", "heat_transfer_coefficient"),
 ];
 
 /// A property that the model needs and the case does not give.
@@ -63,6 +65,11 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
             density: 1.0, // of no use: each particle has its own
             youngs_modulus: material.youngs_modulus,
             poissons_ratio: material.poissons_ratio,
+            thermal: Thermal {
+                conductivity: material.conductivity,
+                specific_heat: material.specific_heat,
+                real_youngs_modulus: material.real_youngs_modulus,
+            },
         })
     });
     let all: Vec<Material> = all.collect::<Result<_, Mistake>>()?;
@@ -121,6 +128,8 @@ fn mixed(case: &Case, pairs: &mut [PairProperties]) {
             damping_coefficient: mean(|pair| pair.damping_coefficient),
             tangential_damping_ratio: mean(|pair| pair.tangential_damping_ratio),
             tangential_stiffness: modulus(),
+            conductivity: pairs[i * count + j].conductivity,
+            heat_transfer_coefficient: pairs[i * count + j].heat_transfer_coefficient,
             ..PairProperties::default()
         };
     }
@@ -172,6 +181,8 @@ fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static
         "pull_off_force" => pair.pull_off_force = NonNegative::new(value).map(Some).ok_or("0 or an attraction")?,
         "adhesion_stiffness_ratio" => pair.adhesion_stiffness_ratio = non_negative()?,
         "critical_stokes_number" => pair.critical_stokes_number = positive()?,
+        "conductivity" => pair.conductivity = positive()?,
+        "heat_transfer_coefficient" => pair.heat_transfer_coefficient = non_negative()?,
         _ => pair.maximum_restitution = restitution()?,
     }
     Ok(())

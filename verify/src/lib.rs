@@ -11,6 +11,7 @@ mod case;
 mod compare;
 mod defaults;
 mod error;
+mod heat;
 mod history;
 mod law;
 mod linked;
@@ -20,12 +21,14 @@ mod trajectory;
 
 pub use compare::{Errors, Report};
 pub use error::VerifyError;
+pub use heat::HeatErrors;
 pub use linked::LinkErrors;
 pub use surfaces::SurfaceErrors;
 
 use case::Case;
 use cograin::bond::keys::FormulationChoice;
 use compare::Measure;
+use heat::Heats;
 use history::History;
 use samples::Samples;
 use std::fs;
@@ -84,6 +87,7 @@ pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
         build::scene(&case, folder, options.formulation).map_err(|mistake| mistake.at(&folder.join("case.json")))?;
     let scene = Arc::new(scene);
     let theirs = Samples::read(&folder.join(samples_of(folder)), &case)?;
+    let heats = Heats::read(&folder.join("heat.csv"), &case)?;
     let history = History::read(&folder.join("bonds.csv"), &case)?;
     let in_windows = !options.free && options.formulation == FormulationChoice::EngineExact && case.walls.is_empty();
     let windows = match (&theirs, &history) {
@@ -91,9 +95,10 @@ pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
         _ => None,
     };
     let free = (windows.is_none() || options.write.is_some()).then(|| {
-        let steps = match &theirs {
-            Some(samples) => samples.steps(),
-            None => (0..=case.steps).step_by(case.sample_every as usize).collect(),
+        let steps = match (&theirs, &heats) {
+            (Some(samples), _) => samples.steps(),
+            (None, Some(heats)) => heats.rows.keys().copied().collect(),
+            (None, None) => (0..=case.steps).step_by(case.sample_every as usize).collect(),
         };
         trajectory::free(&case, &scene, &steps)
     });
@@ -108,7 +113,8 @@ pub fn replay(folder: &Path, options: &Options) -> Result<Report, VerifyError> {
     let links = links.map(|(theirs, history)| LinkErrors::between(&case, theirs, history, &run.samples, &measure));
     let surfaces = Surfaces::read(&folder.join("boundary_rule.csv"))?
         .map(|theirs| SurfaceErrors::between(&case, &theirs, &run.samples, measure.allowed));
-    Ok(Report { name, errors, links, surfaces, stopped: run.stopped })
+    let heat = heats.map(|theirs| HeatErrors::between(&theirs, &run.samples));
+    Ok(Report { name, errors, links, surfaces, heat, stopped: run.stopped })
 }
 
 /// The file that a case is compared with: where the other engine is wrong, an independent program's.

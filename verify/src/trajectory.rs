@@ -1,6 +1,7 @@
 //! Runs of a case: from its start, or from each of its samples to the next.
 
 use super::case::Case;
+use super::heat::{self, Heated};
 use super::history::{History, PairRow};
 use super::samples::{Row, Samples};
 use super::surfaces::OnSurface;
@@ -23,6 +24,8 @@ pub(super) struct Sample {
     /// Kinetic energy, that of contacts without their springs, and that in the field of gravity, 0 at the origin \[J\]; 0 in a case without
     /// surfaces.
     pub(super) energy: f64,
+    /// Temperatures and heat flows, in the case's order; empty where no heat flows.
+    pub(super) heat: Vec<Heated>,
 }
 
 /// What a run left.
@@ -138,7 +141,7 @@ fn observe(case: &Case, simulation: &Simulation, step: u64) -> Sample {
     };
     let surfaces = simulation.state().boundaries.iter().map(about_origin).collect();
     let energy = if case.walls.is_empty() { 0.0 } else { energy(case, simulation) };
-    Sample { step, rows, bonds, surfaces, energy }
+    Sample { step, rows, bonds, surfaces, energy, heat: heat::observe(case, simulation) }
 }
 
 /// Kinetic energy, that of contacts without their springs, and that in the field of gravity \[J\].

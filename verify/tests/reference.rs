@@ -18,6 +18,9 @@ const MORE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/more
 /// Where the cases of suppressed contacts lie.
 const SUPPRESSED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/suppressed");
 
+/// Where the cases of heat lie.
+const HEAT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/heat");
+
 /// Where the cases of meshes and cylinders lie.
 const MESH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/reference/mesh");
 
@@ -395,4 +398,24 @@ fn bad_samples_are_refused_with_their_line() {
         with_samples("nan", &format!("{header}\n{not_finite}\n")),
         "samples.csv, line 2: x: expected a finite number, found \"nan\""
     );
+}
+
+#[test]
+fn temperatures_and_heat_flows_of_other_engines_are_reproduced() {
+    let cases = find(&[HEAT.into()]).unwrap();
+    assert_eq!(cases.len(), 14);
+    let reports: Vec<_> = cases.iter().map(|case| replay(case, &Options::default()).unwrap()).collect();
+    assert!(reports.iter().all(|report| report.heat.is_some()));
+    let failed: Vec<String> = reports.iter().filter(|report| !report.passed()).map(ToString::to_string).collect();
+    assert!(failed.is_empty(), "\n{}", failed.join("\n"));
+}
+
+#[test]
+fn another_conductivity_fails() {
+    let folder = Path::new(HEAT).join("l01_two_overlap");
+    let case = fs::read_to_string(folder.join("case.json")).unwrap();
+    let scratch = Scratch::new("conductivity");
+    fs::copy(folder.join("heat.csv"), scratch.0.join("heat.csv")).unwrap();
+    let changed = scratch.case(&changed(&case, "\"conductivity\": 5.0", "\"conductivity\": 5.0001"));
+    assert!(!replay(&changed, &Options::default()).unwrap().passed());
 }

@@ -1,5 +1,5 @@
-//! One folder, one run. Two runs in one folder used to leave a mixture of both with status 0, and a run removed the
-//! results of another one unasked.
+//! One folder, one run: a second run into the same folder is refused while the first lasts, and results of another run stay unless
+//! one asks for their replacement.
 
 use crate::ground::{ALL_OUTPUTS, Place, assert_same, cograin, complaint, results, summary, wait_for_rows};
 use std::fs;

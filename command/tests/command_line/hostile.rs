@@ -70,7 +70,7 @@ fn a_history_that_is_deleted_during_a_run_is_told() {
     assert!(said.contains("expected the file that this run writes"), "{said}");
 }
 
-/// `nohup` once had no effect: the program replaced the signal that it was told to ignore.
+/// The program goes on ignoring the signal that `nohup` told it to ignore.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_signal_that_the_caller_ignores_stays_ignored() {

@@ -40,7 +40,7 @@ fn a_table_of_inputs_that_does_not_fit_is_refused_with_its_line() {
     let cases = [
         ("floor.displacement.z\n1e-3\n", "line 1: expected a column time, found floor.displacement.z"),
         ("time,floor.force.z\n1e-3,0\n", "line 1: expected a column floor.displacement.z, found time, floor.force.z"),
-        ("0.0,0.0\n1e-3,0\n", "line 1: expected a column time, found no names but numbers"),
+        ("0.0,0.0\n1e-3,0\n", "line 1: expected a column time, found a first line without names of columns"),
         (
             "time,floor.displacment.z\n1e-3,0\n",
             "line 1: expected time and variables of the unit, found a column \"floor.displacment.z\"; the nearest is floor.displacement.z",

@@ -1,5 +1,4 @@
-//! Stages of a protocol: a scene that begins with the checkpoint of another one. A checkpoint belonged to the very text of
-//! its scene, so a preparation could not be loaded, and a run could not be given a later end.
+//! Stages of a protocol: a scene begins with the checkpoint of another one, and a run can be given a later end.
 
 use crate::ground::{Place, SCENE, assert_same, cograin, column, complaint, results, summary, wait_for_rows};
 use cograin::results::Checkpoint;

@@ -46,7 +46,7 @@ fn a_run_without_an_end_is_refused_and_nothing_is_written() {
 #[test]
 fn a_time_step_above_the_bound_is_refused_and_nothing_is_written() {
     let place = Place::new("long_step");
-    let scene = place.scene("end = 1.0\nstep = 1e-2", "");
+    let scene = place.scene("end = 1.0\nstep = 1e-2\nstrict_step = true", "");
     let text = fs::read_to_string(&scene).unwrap().replace("[0.011, 0.001, 0.012]", "[0.00998, 0.0, 0.012]");
     fs::write(&scene, text).unwrap();
     let said = complaint(&cograin(&[&"run", &scene, &"-o", &place.at("out")]).output().unwrap(), 2);

@@ -12,7 +12,7 @@ fn a_run_leaves_its_files_and_says_what_it_cost() {
     let said = complaint(&output, 0);
     assert!(said.is_empty(), "progress where there is no terminal: {said}");
     let told = String::from_utf8_lossy(&output.stdout);
-    assert!(told.contains("5000 steps") && told.contains(" ns per contact and step, "), "{output:?}");
+    assert!(told.contains("5000 steps") && told.contains(" ns per particle and step, "), "{output:?}");
     let numbers = summary(&out);
     let [cost, contacts, time] = ["/ns_per_contact_and_step", "/counts/mean_contacts", "/stepping_time"]
         .map(|name| numbers.pointer(name).and_then(serde_json::Value::as_f64).unwrap());

@@ -123,7 +123,7 @@ mod tests {
             surface_tension: Positive::new(0.072).unwrap(),
             contact_angle: Angle(0.5),
         };
-        let material = Material { name: "glass".into(), density: 1.0, youngs_modulus: None, poissons_ratio: None };
+        let material = Material { name: "glass".into(), density: 1.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default() };
         let pair = MaterialPair { a: &material, b: &material, properties: &PairProperties::default() };
         LiquidBridge::between(&pair, &keys).unwrap()
     }

@@ -40,12 +40,7 @@ impl<'d, 'a> Attempt<'d, 'a> {
     ) -> Self {
         let empty = || Spanned::new(0..0, DeValue::Table(DeTable::new()));
         let mut value = document.find(&format!("{table}.{key}")).cloned().unwrap_or_else(empty);
-        if let DeValue::Table(table) = value.get_mut() {
-            let others = table.keys().filter(|key| !part.has(key.get_ref()));
-            for other in others.map(|key| key.get_ref().to_string()).collect::<Vec<_>>() {
-                table.remove(other.as_str());
-            }
-        }
+        leave(&mut value, part);
         Self { document, table, key, part, value, before: faults.count(), wrong: Vec::new(), readings: 0 }
     }
 
@@ -57,7 +52,11 @@ impl<'d, 'a> Attempt<'d, 'a> {
             path.truncate(end + 1);
         }
         let mut mistake = messages::mistake(error, path.last().map_or("", String::as_str));
-        if let (Mistake::UnknownKey { known, .. }, Part::Except(others), [_]) = (&mut mistake, self.part, &path[..]) {
+        if let Mistake::UnknownKey { known, .. } = &mut mistake {
+            let others = match (self.part, &path[..]) {
+                (Part::Except(others), [_]) | (Part::ExceptInLists(others), [_] | [_, _, _]) => others,
+                _ => &[],
+            };
             known.splice(0..0, others.iter().map(|key| (*key).to_owned()));
         }
         let unknown = matches!(mistake, Mistake::UnknownKey { .. } | Mistake::Unsupported { .. });
@@ -86,7 +85,22 @@ impl Part<'_> {
     fn has(self, key: &str) -> bool {
         match self {
             Self::Only(keys) => keys.contains(&key),
-            Self::Except(keys) => !keys.contains(&key),
+            Self::Except(keys) | Self::ExceptInLists(keys) => !keys.contains(&key),
+        }
+    }
+}
+
+/// Leaves this part of a table.
+fn leave(value: &mut Spanned<DeValue>, part: Part) {
+    let DeValue::Table(table) = value.get_mut() else { return };
+    let others = table.keys().filter(|key| !part.has(key.get_ref()));
+    for other in others.map(|key| key.get_ref().to_string()).collect::<Vec<_>>() {
+        table.remove(other.as_str());
+    }
+    let Part::ExceptInLists(keys) = part else { return };
+    for (_, below) in table.iter_mut() {
+        if let DeValue::Array(list) = below.get_mut() {
+            list.iter_mut().for_each(|entry| leave(entry, Part::Except(keys)));
         }
     }
 }

@@ -45,6 +45,13 @@ impl<'d, 'a> Faults<'d, 'a> {
         self.unread.push(format!("[{table}] {key}: nothing reads it; {why}"));
     }
 
+    /// What a file of a table says and nothing reads.
+    pub(crate) fn left_out(&mut self, table: &str, file: &str, names: &[String]) {
+        if !names.is_empty() {
+            self.unread.push(format!("[{table}] file: nothing reads {} of {file}", names.join(", ")));
+        }
+    }
+
     /// What nothing reads.
     pub(crate) fn all_unread(&self) -> &[String] {
         &self.unread

@@ -30,6 +30,20 @@ const COMMANDS: [&str; 24] = [
     "variable",
 ];
 
+/// A list of numbers with spaces between them, if a line has one, and what was expected.
+pub(crate) fn list_without_commas(line: &str) -> Option<Mistake> {
+    let content = line.split('#').next().unwrap_or_default();
+    let is_number = |word: &str| word.parse::<f64>().is_ok();
+    let rest = content.split_once('[')?.1;
+    let words = |part: &str| part.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    let parts = rest.split([',', '[', ']', '{', '}', '=']).map(words);
+    let mut lists = parts.filter(|words| words.len() > 1 && words.iter().all(|word| is_number(word)));
+    lists.next().map(|words| Mistake::Unexpected {
+        found: format!("{} without commas", words.join(" ")),
+        expected: format!("a list with commas: {}", words.join(", ")),
+    })
+}
+
 /// How many lines with commands tell a script.
 const TELLING: usize = 3;
 

@@ -4,15 +4,24 @@ use super::mistake::Mistake;
 use super::single::Error;
 
 /// What people look for under these names and this program does not have.
-const ABSENT: [(&[&str], &str, &str); 4] = [
+const ABSENT: [(&[&str], &str, &str); 5] = [
     (&["coarse_graining", "coarsegraining", "coarse_grain"], "coarse graining factors", "real radii"),
     (
         &["shape", "multisphere", "superquadric", "polyhedron", "ellipsoid", "aspect_ratio"],
-        "non-spherical bodies",
-        "spheres",
+        "non-spherical bodies but clumps",
+        "spheres or [clump.<name>]",
     ),
-    (&["nodes"], "deforming meshes", "rigid ones"),
-    (&["region", "regions"], "averaging regions", "outputs of boundaries"),
+    (
+        &["emissivity", "radiation"],
+        "radiation between bodies",
+        "a [heat_source.<name>] with an ambient temperature and conductance",
+    ),
+    (
+        &["gap_conduction", "fluid_conductivity", "surround_layer", "minimum_conduction_distance"],
+        "conduction through the fluid in gaps",
+        "the heat sub-models of a contact law, which act where bodies touch",
+    ),
+    (&["thermal_expansion", "expansion_coefficient"], "thermal expansion", "radii that stay"),
 ];
 
 /// The refusal of something that this program does not have.

@@ -15,12 +15,12 @@ mod value;
 pub use error::{SceneError, SceneErrors};
 pub(crate) use faults::Faults;
 pub use mistake::Mistake;
-pub(crate) use phrases::proposal;
+pub(crate) use phrases::{proposal, told_columns};
 pub(crate) use setting::apply;
 pub use setting::{Setting, SettingError};
 
 use attempt::Attempt;
-use foreign::looks_like;
+use foreign::{list_without_commas, looks_like};
 use serde::de::DeserializeOwned;
 use single::Error;
 use toml::Spanned;
@@ -33,6 +33,8 @@ pub(crate) enum Part<'k> {
     Only(&'k [&'k str]),
     /// All but these, which are read on their own.
     Except(&'k [&'k str]),
+    /// All but these, of the table and of the entries of its lists.
+    ExceptInLists(&'k [&'k str]),
 }
 
 /// A scene's text, parsed.
@@ -62,9 +64,16 @@ impl<'a> Document<'a> {
             faults.at_line(None, "", "", mistake);
             return faults.finish().map(|()| document);
         }
+        let mut told = None;
         for error in errors {
             let line = error.span().map(|span| document.line(span.start));
-            let mistake = Mistake::Syntax { message: error.message().to_owned() };
+            let list = line.and_then(|line| list_without_commas(text.lines().nth(line - 1)?));
+            // All that is said of such a line follows from the one mistake.
+            if line.is_some() && line == told {
+                continue;
+            }
+            told = line.filter(|_| list.is_some());
+            let mistake = list.unwrap_or_else(|| Mistake::Syntax { message: error.message().to_owned() });
             faults.at_line(line, "", "", mistake);
         }
         faults.finish().map(|()| document)
@@ -87,6 +96,13 @@ impl<'a> Document<'a> {
     /// Whether the scene has this table or key.
     pub(crate) fn has(&self, path: &str) -> bool {
         self.find(path).is_some()
+    }
+
+    /// Whether the scene has a table or key at this dotted path, in which `*` stands for any name.
+    pub(crate) fn has_any(&self, path: &str) -> bool {
+        let Some((before, after)) = path.split_once('*') else { return self.has(path) };
+        let names = self.names(before.trim_end_matches('.'));
+        names.iter().any(|name| self.has_any(&format!("{before}{name}{after}")))
     }
 
     /// The keys of a table, in the order in which the text has them.

@@ -5,6 +5,9 @@ use super::nearest::nearest;
 /// How many known words a message lists at most.
 const LISTED: usize = 40;
 
+/// Bytes of the longest name of a column.
+const LONGEST_COLUMN: usize = 32;
+
 /// A length in at most four digits: `2.0e-3`, `1.837e-3`.
 pub(super) fn short(length: f64) -> String {
     let text = format!("{length:.3e}");
@@ -43,6 +46,15 @@ pub(crate) fn proposal(found: &str, known: &[String], all: &str) -> String {
         None if known.len() > LISTED => format!("{all} {}, ..", listed(&known[..LISTED])),
         None => format!("{all} {}", listed(known)),
     }
+}
+
+/// Names of columns, as a message may tell them; none of a first line that is no table's, which is nobody's business.
+pub(crate) fn told_columns(found: &[String]) -> Option<String> {
+    let is_name = |name: &String| {
+        let word = |letter: char| letter.is_alphanumeric() || "_.-[]()/ ^²³".contains(letter);
+        name.len() <= LONGEST_COLUMN && name.starts_with(char::is_alphabetic) && name.chars().all(word)
+    };
+    (found.len() > 1 && found.iter().all(is_name)).then(|| listed(found))
 }
 
 /// `; the nearest is "near"`, or nothing where no known word is near, or only one is known.

@@ -45,7 +45,7 @@ pub(crate) struct Threads {
     failed: AtomicBool,
     /// How many helpers sleep or are about to.
     asleep: AtomicUsize,
-    /// Who they are.
+    /// The helpers that sleep or are about to.
     sleepers: Mutex<Vec<Thread>>,
 }
 
@@ -110,7 +110,7 @@ impl Drop for Open<'_> {
 }
 
 impl Threads {
-    /// So many threads.
+    /// The threads of a simulation, this many.
     pub(crate) fn of(threads: usize) -> Self {
         let shares = || (0..threads).map(|_| Share(AtomicU64::new(0))).collect();
         Self {
@@ -295,7 +295,7 @@ mod tests {
         });
     }
 
-    /// It looked for the next loop for ever: the number of the last loop was not that of the last one that it had done.
+    /// The number of the last loop may be above that of the last one that the helper did.
     #[test]
     fn a_helper_that_came_too_late_for_the_last_loop_sleeps() {
         let threads = &Threads::of(2);

@@ -109,7 +109,7 @@ impl Rest<'_> {
         word.parse().map_err(|_| format!("{:?} where a count should stand", shortened(&word)))
     }
 
-    /// So many groups of numbers, behind the end of the line where they are binary.
+    /// Reads `count` groups of numbers; binary ones stand behind the end of the line.
     fn numbers(&mut self, count: usize, each: usize, kind: &str, name: &str) -> Result<Vec<f64>, String> {
         let number = match kind.to_lowercase().as_str() {
             "double" => Number::Real(8),

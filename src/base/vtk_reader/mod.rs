@@ -23,6 +23,8 @@ pub(crate) struct Piece {
     pub(crate) arrays: Vec<Array>,
     /// Cells with a surface, or of any kind in an unstructured grid.
     pub(crate) cells: Vec<Cell>,
+    /// Fields of the file as a whole, in its first piece: those of numbers, where arrays are wanted.
+    pub(crate) fields: Vec<Array>,
 }
 
 /// Numbers of each point.

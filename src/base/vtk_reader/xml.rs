@@ -15,6 +15,8 @@ enum Part {
     Other,
     /// Points.
     Points,
+    /// Fields of the file.
+    Field,
     /// Point data.
     PointData,
     /// Cells of an unstructured grid.
@@ -29,6 +31,7 @@ impl Part {
     /// The part that a tag begins.
     fn of(tag: &str) -> Self {
         match tag {
+            "FieldData" => Self::Field,
             "Points" => Self::Points,
             "PointData" => Self::PointData,
             "Cells" => Self::Cells,
@@ -86,6 +89,7 @@ pub(super) fn read(bytes: &[u8], wanted: &Wanted) -> Result<Vec<Piece>, String> 
         let is_wanted = match array.part {
             Part::Other => false,
             Part::Points => true,
+            Part::Field => matches!(wanted, Wanted::Arrays(_)) && array.number != "String" && !pieces.is_empty(),
             Part::PointData => wanted.array(&array.name),
             Part::Cells | Part::Polygons | Part::Strips => wanted.cells(),
         };
@@ -98,6 +102,10 @@ pub(super) fn read(bytes: &[u8], wanted: &Wanted) -> Result<Vec<Piece>, String> 
             Part::PointData => {
                 let (name, components) = (array.name.clone(), array.components);
                 pieces[array.piece].arrays.push(Array { name, components, values });
+            }
+            Part::Field => {
+                let (name, components) = (array.name.clone(), array.components);
+                pieces[0].fields.push(Array { name, components, values });
             }
             _ => lists.push((array, values)),
         }
@@ -218,8 +226,8 @@ impl Contents {
             "Piece" => {
                 self.counts.push(["NumberOfPoints", "NumberOfCells", "NumberOfPolys", "NumberOfStrips"].map(whole));
             }
-            "DataArray" if !self.counts.is_empty() => self.arrays.push(Found {
-                piece: self.counts.len() - 1,
+            "DataArray" if !self.counts.is_empty() || *part == Part::Field => self.arrays.push(Found {
+                piece: self.counts.len().saturating_sub(1),
                 part: *part,
                 name: attribute("Name").unwrap_or_default(),
                 components: whole("NumberOfComponents").unwrap_or(1),

@@ -10,6 +10,7 @@ use crate::engine::cell::near::{self, Place};
 use crate::engine::simulation::{ContactRecord, Simulation};
 use crate::engine::state::State;
 use crate::engine::state::contacts::is_told;
+use crate::engine::transfer;
 use crate::scene::{ClumpShape, Region};
 
 /// Rows of a tensor: first index down, second along.
@@ -26,12 +27,16 @@ pub struct Content {
     pub velocity: [f64; 3],
     /// Σ m (v − v̄) ⊗ (v − v̄) \[J\].
     pub fluctuation: Tensor,
+    /// Heat capacity of that mass; 0 where no heat flows \[J/K\].
+    pub heat_capacity: f64,
+    /// Mean temperature by heat capacity; 0 where there is none \[K\].
+    pub temperature: f64,
 }
 
 impl Content {
     /// Granular temperature: a third of the mean square of the velocity less the mean velocity \[m²/s²\]; 0 where there is no
     /// mass.
-    pub fn temperature(&self) -> f64 {
+    pub fn granular_temperature(&self) -> f64 {
         let trace: f64 = (0..3).map(|axis| self.fluctuation[axis][axis]).sum();
         if self.mass > 0.0 { trace / (3.0 * self.mass) } else { 0.0 }
     }
@@ -164,11 +169,19 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
             for axis in 0..3 {
                 content.velocity[axis] += mass * velocity(slot)[axis];
             }
+            if let Some(temperature) = transfer::temperature(state, slot) {
+                let capacity = mass * transfer::specific_heat(scene, state, slot);
+                content.heat_capacity += capacity;
+                content.temperature += capacity * temperature;
+            }
             inside.push((slot, mass));
         }
     }
     if content.mass > 0.0 {
         content.velocity = content.velocity.map(|momentum| momentum / content.mass);
+    }
+    if content.heat_capacity > 0.0 {
+        content.temperature /= content.heat_capacity;
     }
     for (slot, mass) in inside {
         let apart = Vector::from(velocity(slot)) - content.velocity.into();

@@ -5,6 +5,7 @@ use crate::base::number::Vector;
 use crate::base::quantity::{ParticleId, SetIndex};
 use crate::engine::bodies::loads;
 use crate::engine::simulation::Simulation;
+use crate::engine::transfer;
 use crate::scene::Probed;
 
 /// What a probe sees at the present time; zeros of what has gone.
@@ -24,6 +25,8 @@ pub struct Sight {
     pub normal_force: f64,
     /// Sum of the two radii less the distance of the centres \[m\].
     pub overlap: f64,
+    /// Temperature of the particle, mean of the set by heat capacity; 0 where no heat flows \[K\].
+    pub temperature: f64,
 }
 
 /// What each probe of the scene sees.
@@ -66,6 +69,7 @@ fn particle(simulation: &Simulation, slot: usize) -> Sight {
         angular_velocity: three(particles.angular_velocity[slot]),
         force: loads::force_on(simulation.scene(), particles, slot),
         torque: three(particles.torque[slot]),
+        temperature: transfer::temperature(simulation.state(), slot).unwrap_or(0.0),
         ..Sight::default()
     }
 }
@@ -97,11 +101,21 @@ fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
         momentum += Vector::from(clumps.velocity[place_of]) * own;
         force += Vector::from(clumps.force[place_of]);
     }
+    let (mut heat, mut capacity) = (0.0, 0.0);
+    let members = (0..).zip(&scene.particles).filter(|(_, particle)| particle.set == set);
+    for slot in members.filter_map(|(index, _)| particles.slot_of(index)) {
+        let Some(temperature) = transfer::temperature(simulation.state(), slot) else { break };
+        let own =
+            loads::mass_of(scene, (particles, clumps), slot) * transfer::specific_heat(scene, simulation.state(), slot);
+        heat += own * temperature;
+        capacity += own;
+    }
     if mass == 0.0 {
         return Sight::default();
     }
     let mean = |sum: Vector| (sum * (1.0 / mass)).to_array();
-    Sight { position: mean(place), velocity: mean(momentum), force: force.to_array(), ..Sight::default() }
+    let temperature = if capacity > 0.0 { heat / capacity } else { 0.0 };
+    Sight { position: mean(place), velocity: mean(momentum), force: force.to_array(), temperature, ..Sight::default() }
 }
 
 /// What the two particles of each probe of a contact do to each other, by contact and bond.

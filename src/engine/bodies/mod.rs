@@ -45,16 +45,20 @@ pub(crate) struct Body<'a> {
     cell: Option<&'a CellState>,
 }
 
+/// The body of this number, if forces move it.
+pub(crate) fn numbered<'a>(bodies: &'a [Option<RigidBody>], state: &'a State, number: usize) -> Option<Body<'a>> {
+    match number.checked_sub(state.boundaries.len()) {
+        Some(clump) => Some(Body { number, ..clumps::body(&state.clumps, clump) }),
+        None => {
+            let body = bodies[number].as_ref().filter(|body| body.is_free())?;
+            Some(body.of_boundary(number, &state.boundaries[number], state.cell.as_ref()))
+        }
+    }
+}
+
 /// The bodies that forces move, in the order of their numbers.
 pub(crate) fn each<'a>(bodies: &'a [Option<RigidBody>], state: &'a State) -> impl Iterator<Item = Body<'a>> {
-    let free = move |number: usize| {
-        let body = bodies[number].as_ref().filter(|body| body.is_free())?;
-        Some(body.of_boundary(number, &state.boundaries[number], state.cell.as_ref()))
-    };
-    let clumps = &state.clumps;
-    let boundaries = state.boundaries.len();
-    let clump = move |clump: usize| Body { number: boundaries + clump, ..clumps::body(clumps, clump) };
-    (0..bodies.len()).filter_map(free).chain((0..clumps.len()).map(clump))
+    (0..state.owners()).filter_map(move |number| numbered(bodies, state, number))
 }
 
 impl Body<'_> {
@@ -66,6 +70,11 @@ impl Body<'_> {
     /// The whole force on it, along axes that are not free as well \[N\].
     pub(crate) fn force(&self) -> Vector {
         self.boundary.map_or(self.rigid.force, |(_, moved)| moved.inertial.load.into())
+    }
+
+    /// The acceleration of its point \[m/s²\] and the angular one \[rad/s²\] that its present load gives.
+    pub(crate) fn answer(&self) -> [Vector; 2] {
+        self.rigid.answer()
     }
 
     /// Largest speed that one of its spheres can have then \[m/s\].

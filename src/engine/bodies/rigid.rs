@@ -106,6 +106,12 @@ impl<N: Number> Rigid<N> {
 }
 
 impl Rigid {
+    /// The acceleration \[m/s²\] and the angular one \[rad/s²\] that its load gives.
+    pub(crate) fn answer(self) -> [Vector; 2] {
+        let answer = Self { velocity: Vector::zero(), momentum: Vector::zero(), ..self }.kicked(1.0);
+        [answer.velocity, answer.spin()]
+    }
+
     /// Kinetic energy \[J\].
     pub(crate) fn kinetic(&self) -> f64 {
         0.5 * self.mass * self.velocity.dot(self.velocity) + 0.5 * self.spin().dot(self.momentum)

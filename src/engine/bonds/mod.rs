@@ -7,6 +7,7 @@
 mod after;
 mod batch;
 mod book;
+pub(crate) mod clusters;
 mod pipeline_buffer;
 pub(crate) mod walls;
 

@@ -168,7 +168,8 @@ pub(crate) fn speeds<'a>(
     boundaries.enumerate().map(move |(place, (((boundary, body), moved), extent))| {
         // Of what an axis is known to do, the faster: as it moves, as it is about to, as the scene says.
         let speed = |axis: usize, now: f64| {
-            let said = boundary.axes[axis].at(time).map_or(0.0, |[_, velocity]| velocity.abs());
+            let at = |time: f64| boundary.axes[axis].at(time).map_or(0.0, |[_, velocity]| velocity.abs());
+            let said = at(time).max(at(time + step));
             now.abs().max(moved.fastest[axis].abs()).max(said)
         };
         let along = Vector::from([0, 1, 2].map(|axis| speed(axis, moved.velocity[axis]))).length();
@@ -176,7 +177,7 @@ pub(crate) fn speeds<'a>(
         let bent = state.nodes_of(place).map_or(0.0, |nodes| nodes.fastest);
         let Some(body) = body else { return along + bent };
         let extent = body.farthest.max(extent);
-        let gained = if body.is_free() && body.is_surface() { step * body.acceleration(moved, extent) } else { 0.0 };
+        let gained = if body.is_free() { step * body.acceleration(moved, extent) } else { 0.0 };
         along + about * extent + gained + bent
     })
 }

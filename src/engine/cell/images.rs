@@ -10,6 +10,7 @@
 use crate::base::geometry::Lattice;
 use crate::base::geometry::lattice::{brought_back, counted_anew, is_behind};
 use crate::engine::state::cell::CellState;
+use crate::engine::state::particles::each_column;
 use crate::engine::state::{IMAGE, Particles, Row, State};
 use crate::scene::{Bond, Scene, Shape};
 use std::collections::BTreeMap;
@@ -385,17 +386,15 @@ pub(crate) fn follow(state: &mut State, new_slot: &[u32]) {
 
 /// Puts the images where they belong, moving as their particles do relative to the streaming motion.
 pub(crate) fn place(lattice: &Lattice, cell: &CellState, particles: &mut Particles) {
-    let Particles { position, velocity, angular_velocity, orientation, .. } = particles;
-    for ((&image, &original), &shift) in cell.images.iter().zip(&cell.originals).zip(&cell.displaced) {
-        let (image, original) = (image as usize, original as usize);
+    let pairs =
+        || cell.images.iter().zip(&cell.originals).map(|(&image, &original)| (image as usize, original as usize));
+    each_column!(&mut *particles, |_name, images, column| if images == OfImages::Followed && !column.is_empty() {
+        pairs().for_each(|(image, original)| column[image] = column[original]);
+    });
+    for (&image, &shift) in cell.images.iter().zip(&cell.displaced) {
         let displacement = lattice.displacement(shift);
-        for axis in 0..3 {
-            position[image][axis] = position[original][axis] + displacement[axis];
-        }
-        velocity[image] = velocity[original];
-        angular_velocity[image] = angular_velocity[original];
-        if let Some(turned) = orientation.get(original).copied() {
-            orientation[image] = turned;
+        for (part, by) in particles.position[image as usize].iter_mut().zip(displacement) {
+            *part += by;
         }
     }
 }

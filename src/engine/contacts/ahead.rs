@@ -117,12 +117,14 @@ pub(crate) struct SearchLimits {
     pub margin: f64,
     /// Two bodies come no nearer to each other than by this until the next look \[m\].
     pub way: f64,
-    /// Largest acceleration by gravity and applied forces \[m/s²\].
+    /// Largest acceleration by gravity and applied forces and, of what moves by its load sooner than by its speed, by all loads \[m/s²\].
     pub acceleration: f64,
     /// How much faster than now anything may become.
     pub faster: f64,
     /// Largest speed that each boundary has or is about to get, of its particles \[m/s\].
     pub boundaries: Vec<f64>,
+    /// The load that each boundary which forces move is not yet held against \[N\]; 0 for others.
+    pub loads: Vec<f64>,
     /// Which boundaries forces move: these may turn round and come back.
     pub moved: Vec<bool>,
     /// Largest speed at which a cell that is deformed brings neighbours towards each other \[m/s\].
@@ -167,7 +169,14 @@ impl SearchLimits {
         };
         let away = away(slots[0], contact.normal) + away(slots[1], contact.normal * -1.0);
         let back = Contact { normal_velocity: contact.normal_velocity - 2.0 * away, ..*contact };
-        self.deepest(law, row, &back, i.max(j), boundary[0] + boundary[1] + self.streaming)
+        let group = |slot: u32| particles.group(slot as usize).map_or(0.0, |group| self.load_of(group as u32));
+        let load = i.max(j) * self.acceleration + group(slots[0]) + group(slots[1]);
+        self.deepest((law, row, &back), (i.max(j), load), boundary[0] + boundary[1] + self.streaming)
+    }
+
+    /// The load of a boundary that forces move \[N\].
+    fn load_of(&self, boundary: u32) -> f64 {
+        self.loads.get(boundary as usize).copied().unwrap_or(0.0)
     }
 
     /// Whether forces move a boundary.
@@ -187,31 +196,38 @@ impl SearchLimits {
         let away =
             if self.moves(boundary) { (contact.normal_velocity - particle.dot(contact.normal)).max(0.0) } else { 0.0 };
         let back = Contact { normal_velocity: contact.normal_velocity - 2.0 * away, ..*contact };
-        self.deepest(law, row, &back, contact.mass, speed)
+        let load = contact.mass * self.acceleration + self.load_of(boundary);
+        self.deepest((law, row, &back), (contact.mass, load), speed)
     }
 
     /// A contact or near pair, its overlap negative where it has a gap, as deep as it may get; damped as at the turn.
     /// None where it does not touch.
     ///
     /// Whatever the speeds, the overlap grows by no more than the way of both bodies. Where that is more than the margin, it is
-    /// bounded by the energy of the closing pair as well: that of the heavier body, for it may be pushed from behind. This
-    /// second bound is a heuristic, for others may push too.
-    fn deepest(&self, law: &Law, row: &[f64], contact: &Contact, mass: f64, boundary: f64) -> Option<Contact> {
+    /// bounded by the energy of the closing pair as well: that of the heavier body, for it may be pushed from behind, and by
+    /// the work that the load on it does as they are pressed together. This second bound is a heuristic, for others may push too.
+    fn deepest(
+        &self,
+        (law, row, contact): (&Law, &[f64], &Contact),
+        (mass, load): (f64, f64),
+        boundary: f64,
+    ) -> Option<Contact> {
         let overlap = contact.overlap;
         let certain = overlap + self.margin;
         let farthest = overlap + self.way;
         let mut deep = certain.max(0.0);
         if farthest > certain {
             let speed = self.closing_speed(-contact.normal_velocity, -overlap, boundary);
-            if speed > 0.0 && farthest > 0.0 {
+            if (speed > 0.0 || load > 0.0) && farthest > 0.0 {
                 let held = |overlap: f64| match overlap > 0.0 {
                     true => law.elastic_energy(row, &Contact { overlap, ..*contact }, 0.0, &NO_HISTORY),
                     false => 0.0,
                 };
                 let energy = held(overlap) + 0.5 * mass * speed * speed;
                 // At rest the margin is above what the energy reaches. Attraction beyond touch has energy that falls, too.
-                if energy > held(deep) || law.holds_beyond_touch() {
-                    deep = deep.max(overlap_of(law, row, contact, energy, farthest));
+                let work = load * (deep - overlap.max(0.0));
+                if energy + work > held(deep) || law.holds_beyond_touch() {
+                    deep = deep.max(overlap_of((law, row, contact), [energy, load], farthest));
                 }
             }
         }

@@ -110,7 +110,7 @@ impl CoefficientTable {
         let row = self.row(a, b);
         let radius = meeting.contact.radius;
         let contact = Contact { pair_constant: law.pair_constant(row, radius, meeting.mass), ..meeting.contact };
-        let overlap = overlap_of(law, row, &contact, meeting.energy, radius).max(LEAST_OVERLAP * radius);
+        let overlap = overlap_of((law, row, &contact), [meeting.energy, 0.0], radius).max(LEAST_OVERLAP * radius);
         Some(frames(law, row, &Contact { overlap, ..contact }))
     }
 
@@ -127,12 +127,13 @@ impl CoefficientTable {
     }
 }
 
-/// The overlap at which the normal force of a contact holds this energy \[J\], at most `most` \[m\].
-pub(crate) fn overlap_of(law: &Law, row: &[f64], contact: &Contact, energy: f64, most: f64) -> f64 {
+/// The overlap at which the normal force of a contact holds this energy \[J\] and the work that a load \[N\] does on the way there from
+/// the overlap that it has, or from touch; at most `most` \[m\].
+pub(crate) fn overlap_of((law, row, contact): (&Law, &[f64], &Contact), [energy, load]: [f64; 2], most: f64) -> f64 {
     let held = |overlap: f64| law.elastic_energy(row, &Contact { overlap, ..*contact }, 0.0, &[[0.0; 4]; MOST_HISTORY]);
-    let mut overlap = most;
+    let (from, mut overlap) = (contact.overlap.max(0.0), most);
     for _ in 0..ITERATIONS {
-        let ratio = energy / held(overlap);
+        let ratio = (energy + load * (overlap - from).max(0.0)) / held(overlap);
         // Not a number where there is neither energy nor stiffness.
         if !ratio.is_finite() || (overlap >= most && ratio >= 1.0) {
             return most;

@@ -2,12 +2,13 @@
 //! step may be.
 //!
 //! The neighbour lists hold every pair that can touch until they are made anew. So a look at them foresees every impact until then:
-//! a pair of bodies that are in no contact counts with the energy with which it will meet.
+//! a pair of bodies that are in no contact counts with the energy with which it will meet. Bodies that bonds hold together are one.
 
 use super::listed::{Bodies, ContactEntries};
 use super::records::Motion;
 use crate::base::number::Vector;
 use crate::engine::bodies::RigidBody;
+use crate::engine::bonds::clusters::{self, Clusters};
 use crate::engine::integration::Fields;
 use crate::engine::state::contacts::{TOUCHING, is_suppressed};
 use crate::engine::state::{State, WallContacts};
@@ -38,12 +39,16 @@ pub(crate) struct Energies {
     pub coming: f64,
     /// Of contacts inside packings.
     pub packed: f64,
+    /// Elastic energy of the only contacts that clusters of bonded bodies have.
+    pub held: f64,
 }
 
 /// What is looked at, and what was found.
 pub(crate) struct Encounters<'a> {
-    /// How many contacts and bonds each body has, up to 2: particles by slot, behind them the other bodies.
+    /// How many contacts each body has, up to 2: particles by slot, behind them the other bodies.
     contacts: Vec<u8>,
+    /// Bodies that bonds hold together, where any do.
+    clusters: Option<&'a Clusters>,
     /// Gravity and applied forces.
     fields: &'a Fields,
     /// Groups and surfaces that move.
@@ -60,13 +65,11 @@ pub(crate) struct Encounters<'a> {
     pub energies: Energies,
 }
 
-/// The place of the body that moves a particle (slot).
-fn mover(state: &State, slot: u32) -> usize {
-    let original = state.particles.original(slot) as usize;
-    match state.particles.group(original) {
-        None => original,
-        Some(group) => state.particles.len() + group,
-    }
+/// The place of the body that moves a particle (slot), or of the first one that bonds hold together with it.
+#[inline]
+fn mover(state: &State, clusters: Option<&Clusters>, slot: u32) -> usize {
+    let body = clusters::mover(state, slot);
+    clusters.map_or(body, |clusters| clusters.representative(body))
 }
 
 /// Whether bodies with these bits touch, and no bond takes the place of the contact.
@@ -80,18 +83,22 @@ impl<'a> Encounters<'a> {
         state: &State,
         (fields, bodies): (&'a Fields, &'a [Option<RigidBody>]),
         (speeds, mut contacts): (Vec<f64>, Vec<u8>),
+        clusters: Option<&'a Clusters>,
         (whole, time): (bool, f64),
     ) -> Self {
         contacts.clear();
-        contacts.resize(state.particles.len() + state.owners(), 0);
-        let mut count = |slot: u32| {
-            let place = &mut contacts[mover(state, slot)];
+        contacts.resize(clusters::bodies(state), 0);
+        let mut count = |body: usize| {
+            let place = &mut contacts[body];
             *place = (*place + 1).min(2);
         };
         for list in &state.contacts {
             for (entry, _) in list.flags.iter().enumerate().filter(|(_, flags)| touches(**flags)) {
-                count(list.first[entry]);
-                count(list.second[entry]);
+                let [a, b] = [list.first[entry], list.second[entry]].map(|slot| mover(state, clusters, slot));
+                if a != b {
+                    count(a);
+                    count(b);
+                }
             }
         }
         for WallContacts { particle, flags, .. } in &state.walls {
@@ -99,17 +106,13 @@ impl<'a> Encounters<'a> {
             let mut last = None;
             for (slot, _) in particle.iter().zip(flags).filter(|(_, flags)| touches(**flags)) {
                 if last != Some(slot) {
-                    count(*slot);
+                    count(mover(state, clusters, *slot));
                     last = Some(slot);
                 }
             }
         }
-        for list in &state.bonds {
-            // Whatever else it touches, a bonded body is not alone.
-            list.first.iter().chain(&list.second).for_each(|&slot| (0..2).for_each(|_| count(slot)));
-        }
         let acceleration = fields.acceleration(&state.particles);
-        Self { contacts, fields, bodies, speeds, whole, time, acceleration, energies: Energies::default() }
+        Self { contacts, clusters, fields, bodies, speeds, whole, time, acceleration, energies: Energies::default() }
     }
 
     /// The room for the numbers of contacts, for the next look.
@@ -125,10 +128,13 @@ impl<'a> Encounters<'a> {
         (first, second): (u32, Option<u32>),
         touches: impl FnOnce() -> bool,
     ) -> Option<Meetings> {
-        let own = self.contacts[mover(state, first)];
-        let other = second.map_or(own, |second| self.contacts[mover(state, second)]);
+        let body = mover(state, self.clusters, first);
+        let met = second.map(|second| mover(state, self.clusters, second));
+        let own = self.contacts[body];
+        let other = met.map_or(own, |met| self.contacts[met]);
         let [least, most] = [own.min(other), own.max(other)];
         match (least, most) {
+            _ if met == Some(body) => (self.whole && touches()).then_some(Meetings::Packed),
             (0, 0) => Some(Meetings::ComingImpact),
             (0, _) => Some(Meetings::ComingPacked),
             (1, 1) => touches().then_some(Meetings::Impact),
@@ -170,6 +176,11 @@ impl<'a> Encounters<'a> {
         let elastic = || law.normal_energy(row, contact, 0.0, &[[0.0; 4]; MOST_HISTORY]).max(0.0);
         match meeting {
             Meetings::Packed => self.energies.packed += 0.5 * mass * velocity * velocity + elastic(),
+            // What bonds bring to bear on a contact may hold it for good.
+            Meetings::Impact if self.is_bonded(state, first) || second.is_some_and(|it| self.is_bonded(state, it)) => {
+                self.energies.impacts += 0.5 * mass * velocity * velocity;
+                self.energies.held += elastic();
+            }
             Meetings::Impact => {
                 // What presses the bodies on each other holds back so much of it: at rest, all.
                 let held = mass * self.closing(state, contact, first, second).max(0.0) * overlap;
@@ -199,6 +210,11 @@ impl<'a> Encounters<'a> {
                 *sum += energy.max(0.0);
             }
         }
+    }
+
+    /// Whether bonds act on the body that moves a particle (slot).
+    fn is_bonded(&self, state: &State, slot: u32) -> bool {
+        self.clusters.is_some_and(|clusters| clusters.of(clusters::mover(state, slot)).is_some())
     }
 
     /// How gravity and applied forces accelerate two bodies towards each other along their normal \[m/s²\].

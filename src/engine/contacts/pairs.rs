@@ -28,6 +28,8 @@ pub(super) struct Pairs<'a> {
     pub force: Shared<Row>,
     /// Torques.
     pub torque: Shared<Row>,
+    /// Heat of losses \[J\]; empty where none warms the particles.
+    pub heat: Shared<f64>,
 }
 
 impl Bodies for Pairs<'_> {
@@ -92,6 +94,13 @@ impl Bodies for Pairs<'_> {
                 prefetch(self.angular_velocity.as_ptr().wrapping_add(slot));
                 prefetch(self.torque.pointer().wrapping_add(slot));
             }
+        }
+    }
+
+    fn warm(&self, first: u32, second: u32, heat: f64, _sum: &mut ()) {
+        for slot in [first, second] {
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe { *self.heat.at(slot as usize) += 0.5 * heat };
         }
     }
 

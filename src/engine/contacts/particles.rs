@@ -122,6 +122,7 @@ impl ContactPass {
     fn evaluate(&self, state: &mut State, context: &Context) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
+        let heat = state.heat.as_mut().map_or(&mut [][..], |heat| &mut heat.of_losses);
         let batches = Batches {
             bodies: Pairs {
                 first: &list.first,
@@ -132,6 +133,7 @@ impl ContactPass {
                 material: &particles.material,
                 force: Shared::new(&mut particles.force),
                 torque: Shared::new(&mut particles.torque),
+                heat: Shared::new(heat),
             },
             entries: Entries::of(&mut list.flags, list.history.rows(), list.history.all_mut(), &mut list.pair_constant),
             law: &self.law,

@@ -11,6 +11,21 @@ use crate::engine::state::{State, StateFault};
 use crate::laws::bond::creation::Moment;
 use crate::scene::Scene;
 
+/// A particle touches a surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceTouch {
+    /// The particle (slot).
+    pub slot: u32,
+    /// Index of the boundary.
+    pub boundary: u32,
+    /// Index of the contact law.
+    pub law: u32,
+    /// Overlap \[m\].
+    pub overlap: f64,
+    /// How often it counts: 1, or the weight of a feature.
+    pub weight: f64,
+}
+
 /// One kind of interaction, composed for the scene: its forces.
 pub(crate) trait Pass: Stiffness + Telling + Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
@@ -94,6 +109,9 @@ pub(crate) trait Telling {
     fn largest_overlap(&self, _state: &State) -> f64 {
         0.0
     }
+
+    /// Tells each contact with a surface, as it stands now.
+    fn touched(&self, _state: &State, _tell: &mut dyn FnMut(SurfaceTouch)) {}
 
     /// Tells each living bond and what it carries. Changes nothing.
     fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}

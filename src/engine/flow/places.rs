@@ -5,6 +5,7 @@ use super::{WHOLE, book, cost, is_owed};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
 use crate::engine::bodies::clumps::{self, ClumpBodies};
+use crate::engine::columns;
 use crate::engine::integration::Fields;
 use crate::engine::run_error::RunError;
 use crate::engine::state::exchange::{Exchange, InsertionProgress, NetExchange};
@@ -50,13 +51,14 @@ pub(super) fn feed(
     let came = !newcomers.is_empty();
     let since = state.clock.time - 0.5 * step;
     let material = insertion.material.0;
+    let declared = columns::of_insertion(scene, index);
     for newcomer in newcomers {
         let (time, exchange) = (state.clock.time, state.exchange.as_mut().expect("an insertion has an exchange"));
         let (position, velocity, spheres) = match newcomer {
             Newcomer::Sphere(position, velocity) => {
                 let number = number(exchange, time)?;
                 let inertia = ParticleShape::Sphere.inertia(velocity[3], position[3]);
-                let sphere = InsertedParticle { position, velocity, inertia, material, number };
+                let sphere = InsertedParticle { position, velocity, inertia, material, number, declared: &declared };
                 state.add_particle(&sphere, 0, turning);
                 (position, velocity, None)
             }
@@ -73,6 +75,7 @@ pub(super) fn feed(
                         inertia: ParticleShape::Sphere.inertia(clump.mass, radius),
                         material,
                         number: number(exchange, time)?,
+                        declared: &declared,
                     });
                 }
                 let (rows, next) = (clumps::rows(scene, &clump), exchange.next_clump);

@@ -6,6 +6,7 @@ use super::grid::Grid;
 use super::sizes::Sizes;
 use crate::base::lanes::Shared;
 use crate::base::threads::{CHUNK, Context};
+use crate::engine::state::particles::{Entry, each_column};
 use crate::engine::state::{Columns, IMAGE, Particles, Row};
 
 /// Particles in a piece of the sort by slab.
@@ -31,10 +32,43 @@ pub(crate) struct Order {
     cells: Vec<[u32; 2]>,
     /// Of each piece and slab: how many particles, then where the next goes.
     counts: Vec<u32>,
-    /// Rows in their new order.
+    /// Entries of columns in their new order.
+    spare: Spare,
+}
+
+/// Room for a column that is sorted, for each type of its entries.
+#[derive(Debug, Default)]
+struct Spare {
+    /// Rows.
     rows: Vec<Row>,
-    /// Numbers in their new order.
+    /// Whole numbers.
     numbers: Vec<u32>,
+    /// Numbers.
+    scalars: Vec<f64>,
+}
+
+/// Finds the room for a column.
+trait Sorted: Entry {
+    /// The room for columns of such entries.
+    fn room(spare: &mut Spare) -> &mut Vec<Self>;
+}
+
+impl Sorted for Row {
+    fn room(spare: &mut Spare) -> &mut Vec<Self> {
+        &mut spare.rows
+    }
+}
+
+impl Sorted for u32 {
+    fn room(spare: &mut Spare) -> &mut Vec<Self> {
+        &mut spare.numbers
+    }
+}
+
+impl Sorted for f64 {
+    fn room(spare: &mut Spare) -> &mut Vec<Self> {
+        &mut spare.scalars
+    }
 }
 
 impl Order {
@@ -127,19 +161,8 @@ impl Order {
         let count = self.slots.len();
         let pieces = count.div_ceil(CHUNK);
         let slots = &self.slots;
-        for rows in [
-            &mut particles.position,
-            &mut particles.velocity,
-            &mut particles.angular_velocity,
-            &mut particles.force,
-            &mut particles.torque,
-            &mut particles.orientation,
-        ] {
-            permute(rows, &mut self.rows, slots, context);
-        }
-        for numbers in [&mut particles.material, &mut particles.owner, &mut particles.id] {
-            permute(numbers, &mut self.numbers, slots, context);
-        }
+        let spare = &mut self.spare;
+        each_column!(&mut *particles, |_name, _images, column| permute(column, spare, slots, context));
         self.new_slot.resize(count, 0);
         let (new_slot, slot_of) = (Shared::new(&mut self.new_slot), Shared::new(&mut particles.slot));
         let (id, owner) = (&particles.id, &particles.owner);
@@ -158,11 +181,12 @@ impl Order {
 }
 
 /// Puts items into a new order, by way of a spare list.
-fn permute<T: Copy + Default + Send + Sync>(items: &mut Vec<T>, spare: &mut Vec<T>, slots: &[u32], context: &Context) {
+fn permute<T: Sorted>(items: &mut Vec<T>, spare: &mut Spare, slots: &[u32], context: &Context) {
     let count = items.len();
     if count == 0 {
         return;
     }
+    let spare = T::room(spare);
     spare.resize(count, T::default());
     let (from, to) = (&items[..], Shared::new(spare));
     context.each(count.div_ceil(CHUNK), |piece| {

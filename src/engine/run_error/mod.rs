@@ -199,6 +199,18 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
     },
+    /// An input that moves a boundary where nothing moves.
+    #[error(
+        "boundary {boundary}: expected no motion in a scene with [heat] frozen = true, found a displacement to {value:e} at t = {time} \
+         s", time = plain(*time))]
+    Frozen {
+        /// The boundary.
+        boundary: String,
+        /// Where it was to go \[m, rad\].
+        value: f64,
+        /// Time \[s\].
+        time: f64,
+    },
     /// A triangle of a mesh whose nodes the outside moves has no area any more.
     #[error(
         "boundary {boundary}: expected displacements that leave every face its area, found face {face} without one \

@@ -1,11 +1,12 @@
 //! One communication step: how many time steps, and what is looked at between them.
 
-use super::pace::Seen;
+use super::pace::{BETWEEN_LOOKS, Seen};
 use super::{RunError, Simulation};
 use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
 use crate::engine::state::Underway;
 use crate::engine::state::clock::MOST_STEPS;
+use crate::engine::transfer;
 use crate::laws::motion::Progress;
 use crate::scene::Boundary;
 
@@ -32,17 +33,17 @@ impl Simulation {
     /// The same in parts of at most so many time steps: goes on with the communication step that is under way, or begins one of
     /// `interval` \[s\]. Returns whether its end is reached. Parts, and saving the state between them, change no bit.
     pub fn advance_part(&mut self, interval: f64, most: u64) -> Result<bool, RunError> {
-        if self.state.underway.is_none() {
-            self.begin_interval(interval)?;
-        }
         let mut workers = std::mem::take(&mut self.workers);
-        let (elapsed, result) = workers.run(|threads| self.run((interval, most), threads));
+        let outcome = workers.run(|threads| self.run((interval, most), threads));
         self.workers = workers;
+        let (elapsed, result) = outcome?;
         if self.state.underway.is_some() {
             return Ok(false);
         }
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
+        transfer::end(self.state.heat.as_mut(), elapsed);
+        transfer::tell(&self.scene, &mut self.state);
         if let Some(cell) = &self.cell {
             cell.end(&mut self.state, elapsed);
         }
@@ -52,13 +53,28 @@ impl Simulation {
         result.map(|()| true).map_err(|error| self.named(error))
     }
 
+    /// Refuses inputs that move a boundary where nothing moves.
+    fn check_frozen(&self) -> Result<(), RunError> {
+        if !self.scene.heat.frozen {
+            return Ok(());
+        }
+        for (boundary, moved) in self.scene.boundaries.iter().zip(&self.state.boundaries) {
+            let stands = |axis: usize| if axis < 3 { moved.displacement[axis] } else { moved.rotation[axis - 3] };
+            let moves = |axis: &usize| moved.target[*axis] != stands(*axis) || moved.target_rate[*axis] != 0.0;
+            if let Some(axis) = (0..6).filter(|&axis| boundary.axes[axis].is_driven()).find(moves) {
+                let (boundary, value) = (boundary.name.clone(), moved.target[axis]);
+                return Err(RunError::Frozen { boundary, value, time: self.time() });
+            }
+        }
+        Ok(())
+    }
+
     /// Begins a communication step: what the outside gave is taken.
     fn begin_interval(&mut self, interval: f64) -> Result<(), RunError> {
-        if !interval.is_finite() || interval <= 0.0 {
-            return Err(RunError::Interval { interval });
-        }
+        self.check_frozen()?;
         course::begin(&self.scene, &mut self.state, interval)?;
         nodes::begin(&self.scene, &mut self.state, interval);
+        transfer::begin(self.state.heat.as_mut(), interval);
         if let Some(cell) = &self.cell {
             cell.begin(&mut self.state, interval)?;
         }
@@ -70,49 +86,71 @@ impl Simulation {
     }
 
     /// Makes the time steps of a communication step, or as many as are asked for, and looks at where it led. Returns how much of its
-    /// time has passed \[s\], and why it ended early.
-    fn run(&mut self, (interval, most): (f64, u64), threads: Option<&Threads>) -> (f64, Result<(), RunError>) {
+    /// time has passed \[s\], and why it ended early; an error where it does not begin.
+    fn run(
+        &mut self,
+        (interval, most): (f64, u64),
+        threads: Option<&Threads>,
+    ) -> Result<(f64, Result<(), RunError>), RunError> {
         let standing = Context { threads, ..self.standing() };
-        let mut underway = match self.state.underway.take().map_or_else(|| self.divided(interval, &standing), Ok) {
-            Ok(underway) => underway,
-            Err(error) => return (0.0, Err(error)),
+        let mut underway = match self.state.underway.take() {
+            Some(underway) => underway,
+            None => {
+                if !interval.is_finite() || interval <= 0.0 {
+                    return Err(RunError::Interval { interval });
+                }
+                let chosen = self.choose_step(interval, &standing);
+                self.begin_interval(interval)?;
+                match chosen.and_then(|()| self.divided(interval, &standing)) {
+                    Ok(underway) => underway,
+                    Err(error) => return Ok((0.0, Err(error))),
+                }
+            }
         };
         let result = self.make_steps(&mut underway, most, &standing);
-        self.end_repeat();
         if result.is_ok() && underway.done < underway.count {
             self.state.underway = Some(underway);
-            return (underway.elapsed(), Ok(()));
+            return Ok((underway.elapsed(), Ok(())));
         }
         let looks = || self.check_domain().and_then(|()| self.check_plane()).and_then(|()| self.check_books());
-        (underway.elapsed(), result.and_then(|()| looks()))
+        Ok((underway.elapsed(), result.and_then(|()| looks())))
     }
 
-    /// Divides a communication step into as many time steps as fit when it begins, or as it was divided before.
+    /// Chooses an automatic time step for a communication step, by the state alone: before what the outside gives is taken. So a
+    /// communication step that is made again with other inputs is divided alike, whatever was tried in between.
+    fn choose_step(&mut self, interval: f64, standing: &Context) -> Result<(), RunError> {
+        if !self.scene.run.step.is_automatic() {
+            return Ok(());
+        }
+        let boundary_speed = self.boundary_speed();
+        let (_, step) = divide(interval, self.state.clock.step);
+        self.look_at_contacts(boundary_speed);
+        if self.is_due(boundary_speed, step) {
+            self.look(step, &Context { step, ..*standing })?;
+        }
+        self.shorten_step();
+        self.lengthen_step(interval);
+        Ok(())
+    }
+
+    /// Divides a communication step into as many time steps as fit when it begins. What the outside gave makes these shorter where they
+    /// would be a good deal too long.
     fn divided(&mut self, interval: f64, standing: &Context) -> Result<Underway, RunError> {
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        let is_automatic = self.scene.run.step.is_automatic();
-        let repeated = is_automatic && self.repeats.begin(&self.state.clock, interval);
         let seen = self.look_at_contacts(boundary_speed);
-        let is_due = self.is_due(boundary_speed, step);
-        if is_due {
+        if self.is_due(boundary_speed, step) {
             self.look(step, &Context { step, ..*standing })?;
         }
-        if let Some(underway) = repeated.then(|| self.part(boundary_speed)).flatten() {
-            return Ok(underway);
-        }
-        if is_due || seen != Seen::Nothing {
-            self.shorten_step();
-        }
-        self.lengthen_step(interval);
+        self.join_given();
+        self.shorten_on_the_way(seen != Seen::Nothing);
         let (step, time) = (self.state.clock.step, self.time());
         if interval < step / MOST_STEPS {
             return Err(RunError::TooShort { interval, step, time });
         }
         let (count, step) = self.divide(interval, step)?;
-        let underway = Underway { done: 0, count, step, passed: 0.0, length: count as f64 * step, boundary_speed };
-        self.note_division(0, &underway);
-        Ok(underway)
+        let (begun, length) = (self.state.clock.steps, count as f64 * step);
+        Ok(Underway { begun, done: 0, count, step, passed: 0.0, length, boundary_speed })
     }
 
     /// Divides an interval \[s\] by this time step, unless nobody can mean so many.
@@ -127,10 +165,9 @@ impl Simulation {
 
     /// Divides what is left of a communication step by this time step.
     fn divide_rest(&mut self, underway: &mut Underway, step: f64) -> Result<(), RunError> {
-        let (elapsed, length, made) = (underway.elapsed(), underway.length, underway.done);
+        let (elapsed, length) = (underway.elapsed(), underway.length);
         let (count, step) = self.divide(length - elapsed, step)?;
         *underway = Underway { done: 0, count, step, passed: elapsed / length, ..*underway };
-        self.note_division(made, underway);
         Ok(())
     }
 
@@ -138,7 +175,7 @@ impl Simulation {
     /// it was not.
     fn growing(&self, underway: &Underway) -> Option<f64> {
         let (last, whole) = (self.state.clock.last_step, self.state.clock.step);
-        if last <= 0.0 || self.is_repeated() || !self.scene.boundaries.iter().any(Boundary::is_led) {
+        if last <= 0.0 || !self.scene.boundaries.iter().any(Boundary::is_led) {
             return None;
         }
         let left = underway.count - underway.done;
@@ -153,11 +190,8 @@ impl Simulation {
     fn make_steps(&mut self, underway: &mut Underway, most: u64, standing: &Context) -> Result<(), RunError> {
         let mut left = most;
         while underway.done < underway.count && left > 0 {
-            while let Some(next) = self.next_part(underway) {
-                *underway = next;
-            }
             let step = underway.step;
-            if self.outruns(step) && !self.goes_on(underway) && self.shorten_step() {
+            if self.outruns(step) && self.shorten_on_the_way(true) {
                 self.divide_rest(underway, self.state.clock.step)?;
                 continue;
             }
@@ -173,6 +207,7 @@ impl Simulation {
             underway.done += 1;
             let Underway { done, count, passed, length, .. } = *underway;
             let context = Context { step, ..*standing };
+            self.count_divided();
             self.step(Progress { done, count, step, time: 0.0, passed, length }, &context)?;
             if self.boundaries_change_speed() {
                 underway.boundary_speed = self.boundary_speed();
@@ -193,12 +228,14 @@ impl Simulation {
     /// Chooses another time step for what is left of a communication step, if what was found asks for it.
     fn follow(&mut self, seen: Seen, underway: &mut Underway) -> Result<(), RunError> {
         let is_left = underway.done < underway.count;
-        if is_left && self.is_repeated() && (!self.is_too_long() || self.goes_on(underway)) {
+        if !is_left {
+            // The next communication step chooses its own.
             return Ok(());
         }
-        let left = underway.length - underway.elapsed();
-        let changes = self.shorten_step() || (seen == Seen::Everything && self.lengthen_step(left));
-        if changes && is_left { self.divide_rest(underway, self.state.clock.step) } else { Ok(()) }
+        let is_long = self.state.clock.steps >= underway.begun + BETWEEN_LOOKS;
+        let changes = self.shorten_on_the_way(is_long || seen != Seen::Nothing)
+            || (seen == Seen::Everything && self.lengthen_on_the_way());
+        if changes { self.divide_rest(underway, self.state.clock.step) } else { Ok(()) }
     }
 }
 

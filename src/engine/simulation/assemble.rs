@@ -17,6 +17,7 @@ use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Foresight, Ledger, Losses, Neighbours, Nodes, Pace, Particles, State,
     WallContacts,
 };
+use crate::engine::transfer;
 use crate::scene::{Boundary, Particle, Scene};
 use std::sync::Mutex;
 
@@ -46,6 +47,7 @@ pub(super) fn state(scene: &Scene) -> State {
         exchange: flow::begun(scene),
         cell: Cell::begun(scene),
         clumps: ClumpBodies::begun(scene),
+        heat: transfer::begun(scene),
         particles,
     }
 }
@@ -75,6 +77,7 @@ fn particles(scene: &Scene) -> Particles {
     particles.force = vec![[0.0; 4]; count];
     particles.torque = vec![[0.0; 4]; count];
     particles.owner = vec![0; count];
+    particles.declared = scene.columns.iter().map(|start| start.particles.clone()).collect();
     for (index, boundary) in scene.boundaries.iter().enumerate() {
         for &member in boundary.shape.members() {
             particles.owner[member as usize] = index as u32 + 1;

@@ -1,6 +1,5 @@
 //! How a simulation comes into being: built from a scene, or taken over with a state of it.
 
-use super::repeats::Repeats;
 use super::rollback::Rollback;
 use super::stages::Stages;
 use super::{RunError, Simulation, Workspace, assemble};
@@ -16,6 +15,7 @@ use crate::engine::flow::Flow;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
 use crate::engine::state::{Foresight, Pace, State, StateFault};
+use crate::engine::transfer::{self, Transfer};
 use crate::laws::bond::creation::Moment;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
@@ -56,6 +56,7 @@ impl Simulation {
             cell: Cell::of(&scene),
             shapes: ClumpBodies::of(&scene),
             flow,
+            transfer: Transfer::of(&scene),
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),
             passing: Passing::of(&scene),
@@ -66,7 +67,6 @@ impl Simulation {
             state,
             workspace,
             rollback: Rollback::default(),
-            repeats: Repeats::default(),
             stop: None,
             watch: None,
         };
@@ -105,11 +105,13 @@ impl Simulation {
 
     /// The evaluation before the first step, and what follows from it.
     pub(super) fn start(&mut self) -> Result<(), RunError> {
+        transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
         let context = self.standing();
         let result = self.evaluate(&context);
         self.book_second_kick(None, &context);
         self.open_energy_book();
+        self.look_at_heat(&context);
         result.map_err(|error| self.named(error))?;
         (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
         self.state.clock.speed = self.coming_speed(0.0);
@@ -124,6 +126,9 @@ impl Simulation {
 
     /// Largest speed of what forces move, at the middle of a step of this length \[s\], from rest or not \[m/s\].
     fn coming_speed(&self, step: f64) -> f64 {
+        if self.scene.heat.frozen {
+            return 0.0;
+        }
         let bodies = bodies::coming_speed(&self.bodies, &self.state, step);
         integration::coming_speed(&self.state.particles, step).max(bodies)
     }

@@ -19,6 +19,9 @@ const ONE_SIDED: f64 = 1e-6;
 /// one side and not on the other.
 const CENTRAL: f64 = 1e-5;
 
+/// How much warmer a difference makes a boundary, over its temperature.
+const WARMER: f64 = 1.0 / 1024.0;
+
 /// No body is displaced by less, over the radius of the smallest sphere: positions are rounded.
 const LEAST: f64 = 1e-9;
 
@@ -33,6 +36,8 @@ pub enum Input {
     Rate(usize),
     /// Of a component of the strain of the periodic cell.
     Strain(usize),
+    /// The temperature of a boundary, or the heat flow into it from the outside.
+    Heat(BoundaryIndex),
 }
 
 /// Why there is no derivative.
@@ -131,6 +136,7 @@ impl Simulation {
             Input::Node(boundary, node, axis) => {
                 state.nodes_of_mut(boundary.index()).map(|nodes| &mut nodes.target[node][axis])
             }
+            Input::Heat(boundary) => state.heat.as_mut().map(|heat| &mut heat.boundaries[boundary.index()].target),
             Input::Strain(component) => state.cell.as_mut().map(|cell| &mut cell.target[component]),
             Input::Rate(insertion) => {
                 state.exchange.as_mut().and_then(|it| it.feeds.get_mut(insertion)).map(|feed| &mut feed.rate)
@@ -152,6 +158,7 @@ impl Simulation {
             Input::Node(boundary, _, axis) => (boundary, axis),
             Input::Rate(insertion) => return part * self.usual_rate(insertion, length),
             Input::Strain(component) => return self.usual_strain(component, part),
+            Input::Heat(boundary) => return run.derivative_displacement * self.usual_heat(boundary, length),
         };
         let CurrentContact { overlap, radius, arm } = self.met_by(boundary);
         let way = (part * overlap).max(LEAST * radius);
@@ -192,6 +199,15 @@ impl Simulation {
         } else {
             part * servo.stress.abs().max(cell.target[component].abs()).max(f64::MIN_POSITIVE)
         }
+    }
+
+    /// By how much a thermal input is displaced in a communication step of this length \[s\]: a part of the temperature, or what warms the
+    /// boundary by as much. Heat flows in proportion to it.
+    fn usual_heat(&self, boundary: BoundaryIndex, length: f64) -> f64 {
+        let Some(heat) = &self.state.heat else { return WARMER };
+        let boundary = &heat.boundaries[boundary.index()];
+        let warmer = WARMER * boundary.temperature();
+        if boundary.capacity > 0.0 { boundary.capacity * warmer / length } else { warmer }
     }
 
     /// The rate of an insertion, or that of one particle in a communication step of this length \[s\] where that is more.

@@ -51,6 +51,22 @@ impl Simulation {
         self.state.boundaries[boundary.index()].target_rate[axis] = rate;
     }
 
+    /// Sets the thermal input of a boundary for the next interval: its temperature at the end \[K\] or, where it has a heat capacity,
+    /// the heat flow from the outside \[W\].
+    pub fn set_heat(&mut self, boundary: BoundaryIndex, value: f64) {
+        if let Some(heat) = &mut self.state.heat {
+            let boundary = &mut heat.boundaries[boundary.index()];
+            (boundary.target, boundary.target_rate) = (value, 0.0);
+        }
+    }
+
+    /// The rate of that value over the next interval \[K/s, W/s\].
+    pub fn set_heat_rate(&mut self, boundary: BoundaryIndex, rate: f64) {
+        if let Some(heat) = &mut self.state.heat {
+            heat.boundaries[boundary.index()].target_rate = rate;
+        }
+    }
+
     /// The second derivative of that value over the next interval, along x, y or z: the axis then moves at this acceleration, and ends
     /// at the value plus rate × interval + ½ acceleration × interval² \[m/s²\].
     pub fn set_input_acceleration(&mut self, boundary: BoundaryIndex, axis: usize, acceleration: f64) {

@@ -5,10 +5,12 @@ use super::{RunError, Simulation};
 use crate::base::threads::Context;
 use crate::engine::boundaries::course;
 use crate::engine::contacts::FASTER;
-use crate::engine::stability::{self, Limit, System};
+use crate::engine::stability::{self, Limit, Limiter, System};
 use crate::engine::state::{BoundaryState, State};
+use crate::engine::transfer;
 use crate::laws::bond::creation::{Creation, CreationTime, Window};
-use crate::scene::{Boundary, Insertion, Step};
+use crate::laws::contact::impact::LONGEST_PART;
+use crate::scene::{Bond, Boundary, Insertion, Run, Step};
 
 /// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
 const FAR_BELOW: f64 = 1.5;
@@ -25,11 +27,23 @@ const STEPS_BETWEEN_LOOKS_OF_CELL: u64 = 32;
 /// How much longer an automatic time step must have become possible before it is lengthened.
 const LENGTHENING: f64 = 1.1;
 
+/// How much longer than it would be chosen now an automatic time step may be in the first [`BETWEEN_LOOKS`] time steps of a
+/// communication step: with 0.8 of the stable one it is then stable all the same.
+///
+/// [`BETWEEN_LOOKS`]: super::pace::BETWEEN_LOOKS
+const SLACK: f64 = 1.25;
+
+/// By which factor an automatic time step changes within a communication step, or by powers of it.
+const RUNG: f64 = 1.02;
+
 /// Largest speed over that of the last look at which the stable time step is looked at again.
 const CALMER: f64 = 0.25;
 
 /// How much longer the automatic time step may be than that for which it was foreseen.
 const MUCH_LONGER: f64 = 20.0;
+
+/// How much shorter it may be than that.
+const MUCH_SHORTER: f64 = 4.0;
 
 /// How often it is foreseen at a time.
 const MOST_TRIES: usize = 4;
@@ -44,13 +58,27 @@ impl Simulation {
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
         let (sight, found, counter) = self.present_bound();
+        if let Some(safe) = self.limited_by_heat(&found) {
+            return Limit { safe, by: Some(Limiter::HEAT) };
+        }
         let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &self.standing());
         Limit { safe: found.safe(), by }
     }
 
     /// The stable time step alone \[s\].
     pub fn stable_step(&self) -> f64 {
-        self.present_bound().1.safe()
+        self.safe(&self.present_bound().1)
+    }
+
+    /// The longest time step that heat allows, where it allows less than what was found \[s\].
+    fn limited_by_heat(&self, found: &stability::StableStep) -> Option<f64> {
+        let longest = transfer::longest_step(self.state.heat.as_ref());
+        (self.scene.heat.frozen || longest < found.safe()).then_some(longest)
+    }
+
+    /// The stable time step by what was found, and by heat \[s\].
+    fn safe(&self, found: &stability::StableStep) -> f64 {
+        self.limited_by_heat(found).unwrap_or(found.safe())
     }
 
     /// The stable time step, what it was foreseen for, and how many iterations have been started.
@@ -87,10 +115,12 @@ impl Simulation {
             }
             let next = self.automatic_step(found.safe()).unwrap_or(step);
             tries += 1;
-            if next <= MUCH_LONGER * step || sight.fastest == 0.0 || tries == MOST_TRIES {
+            let fits = next <= MUCH_LONGER * step && step <= MUCH_SHORTER * next;
+            if fits || sight.rests || tries == MOST_TRIES {
                 return (sight, found);
             }
-            step = next;
+            // Where too much was foreseen, the step is between: the one that follows from it foresees too little.
+            step = if next < step { (step * next).sqrt() } else { next };
         }
     }
 
@@ -104,7 +134,11 @@ impl Simulation {
 
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
-        Some((self.part_of_stable()? * stable).min(self.longest_by_motion()).min(self.longest_by_springs()))
+        if self.scene.heat.frozen {
+            return self.scene.run.step.is_automatic().then_some(stable);
+        }
+        let part = self.part_of_stable()? * stable;
+        Some(part.min(self.longest_by_motion()).min(self.longest_by_springs()).min(self.longest_by_vibration()))
     }
 
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and
@@ -169,13 +203,57 @@ impl Simulation {
             until: window.map_or(0, |window| window.until),
             to: window.map_or(0.0, |window| window.to),
         };
-        self.state.clock.stable = found.safe();
-        if step > found.safe() && matches!(self.scene.run.step, Step::Given(_)) && !self.scene.run.allow_unstable {
-            let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, context);
+        let safe = self.safe(&found);
+        self.state.clock.stable = safe;
+        let is_given = matches!(self.scene.run.step, Step::Given(_));
+        if step > safe && is_given && !self.divides() && !self.scene.run.allow_unstable {
+            let by = match self.limited_by_heat(&found) {
+                Some(_) => Some(Limiter::HEAT),
+                None => self.system().limiter(&sight.ahead, sight.speed, &found, counter, context),
+            };
             let by = by.map_or_else(String::new, |by| self.words(&by));
-            return Err(RunError::StepTooLong { step, stable: found.safe(), by, time: self.time() });
+            return Err(RunError::StepTooLong { step, stable: safe, by, time: self.time() });
         }
         self.check_contacts()
+    }
+
+    /// Whether a given time step is divided where the stable one is below it. What knows the step by its number, or relaxes in it, needs
+    /// the very step that was given.
+    pub(super) fn divides(&self) -> bool {
+        let Run { step, allow_unstable, strict_step, .. } = self.scene.run;
+        let needs =
+            |bond: &Bond| bond.keys.needs_given_step().or(bond.keys.shortest_relaxation().map(|_| "")).is_some();
+        matches!(step, Step::Given(_)) && !allow_unstable && !strict_step && !self.scene.bonds.iter().any(needs)
+    }
+
+    /// The longest whole part of a given time step that is a good deal below the stable one \[s\]; none where it is not divided.
+    fn whole_part(&self) -> Option<f64> {
+        let Step::Given(step) = self.scene.run.step else { return None };
+        let most = LONGEST_PART * self.state.clock.stable;
+        let holds = self.divides() && most > 0.0;
+        holds.then(|| step / (step / most).ceil().max(1.0))
+    }
+
+    /// Divides a given time step where the stable one has fallen below it. Returns whether it has.
+    fn divide_given(&mut self) -> bool {
+        let is_above = self.state.clock.step > self.state.clock.stable;
+        let Some(step) = self.whole_part().filter(|_| is_above) else { return false };
+        self.state.clock.step = step;
+        true
+    }
+
+    /// Joins the parts of a given time step again, where the stable one is far enough above them.
+    pub(super) fn join_given(&mut self) {
+        if let Some(step) = self.whole_part() {
+            self.state.clock.step = step.max(self.state.clock.step);
+        }
+    }
+
+    /// Notes a time step of this length \[s\], where it is shorter than the scene says.
+    pub(super) fn count_divided(&mut self) {
+        if let Step::Given(step) = self.scene.run.step {
+            self.state.clock.divided += u64::from(self.state.clock.step < step);
+        }
     }
 
     /// Looks at what servos press on, where it has changed, and now and then.
@@ -229,6 +307,9 @@ impl Simulation {
         let (foresight, clock) = (&self.state.foresight, &self.state.clock);
         let speed = clock.speed.max(0.5 * (clock.speed + boundaries));
         let is_strained = foresight.strained > foresight.strain_reach;
+        if step > transfer::longest_step(self.state.heat.as_ref()) {
+            return true;
+        }
         if foresight.travel > foresight.reach || speed > foresight.speed || is_strained {
             return true;
         }
@@ -266,34 +347,46 @@ impl Simulation {
         self.state.clock.speed < CALMER * self.state.foresight.fastest
     }
 
-    /// Whether an automatic time step is longer than it would be chosen now.
-    pub(super) fn is_too_long(&self) -> bool {
-        self.automatic_step(self.state.clock.stable).is_some_and(|step| step < self.state.clock.step)
+    /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther.
+    pub(super) fn shorten_step(&mut self) {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
+        // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
+        if step < self.state.clock.step && step > 0.0 {
+            self.state.clock.step = step;
+        }
     }
 
-    /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther. Returns whether it has.
-    pub(super) fn shorten_step(&mut self) -> bool {
-        let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
-        // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
-        let shorter = step < self.state.clock.step && step > 0.0;
-        if shorter {
-            self.state.clock.step = step;
+    /// Shortens an automatic time step within a communication step: at once or, so that inputs which differ a little make no difference,
+    /// where it is a good deal too long. It shrinks by whole hundredths for the same reason. Returns whether it has.
+    pub(super) fn shorten_on_the_way(&mut self, at_once: bool) -> bool {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return self.divide_given() };
+        let slack = if at_once { 1.0 } else { SLACK };
+        let shorter = slack * step < self.state.clock.step && step > 0.0;
+        while shorter && step < self.state.clock.step {
+            self.state.clock.step /= RUNG;
         }
         shorter
     }
 
-    /// Lengthens an automatic time step, of which this is left of a communication step \[s\], where a good deal more is allowed. Returns
-    /// whether it has.
-    pub(super) fn lengthen_step(&mut self, left: f64) -> bool {
+    /// Lengthens an automatic time step within a communication step, where a good deal more is allowed. Returns whether it has.
+    pub(super) fn lengthen_on_the_way(&mut self) -> bool {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
-        let clock = &mut self.state.clock;
-        let longer = step > LENGTHENING * clock.step;
-        if step.is_infinite() {
-            clock.step = left;
-        } else if longer {
-            clock.step = step;
+        let longer = step.is_finite() && step > LENGTHENING * self.state.clock.step;
+        while longer && step >= RUNG * self.state.clock.step {
+            self.state.clock.step *= RUNG;
         }
         longer
+    }
+
+    /// Lengthens an automatic time step for a communication step of this length \[s\], where a good deal more is allowed.
+    pub(super) fn lengthen_step(&mut self, length: f64) {
+        let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
+        let clock = &mut self.state.clock;
+        if step.is_infinite() {
+            clock.step = length;
+        } else if step > LENGTHENING * clock.step {
+            clock.step = step;
+        }
     }
 
     /// The time step of the start, by what was found.
@@ -303,6 +396,7 @@ impl Simulation {
         let unlimited = self.scene.run.end.unwrap_or(UNLIMITED);
         let limited = |step: f64| if step.is_finite() { step } else { unlimited };
         self.state.clock.step = self.automatic_step(self.state.clock.stable).map_or(given, limited);
+        self.divide_given();
         Ok(())
     }
 }

@@ -17,7 +17,6 @@ mod pace;
 mod placement;
 mod plane;
 mod probe;
-mod repeats;
 mod rollback;
 mod run_checks;
 mod sight;
@@ -56,10 +55,11 @@ use crate::engine::energy;
 use crate::engine::flow::Flow;
 use crate::engine::integration::Fields;
 use crate::engine::neighbours;
+use crate::engine::stability::Vibrations;
 use crate::engine::state::State;
+use crate::engine::transfer::Transfer;
 use crate::laws::contact::impact::ErrorCurve;
 use crate::scene::Scene;
-use repeats::Repeats;
 use rollback::Rollback;
 use stages::Stages;
 use std::sync::Arc;
@@ -91,6 +91,8 @@ pub struct Simulation {
     cell: Option<Cell>,
     /// Shapes of clumps, where the scene has any.
     shapes: Option<ClumpBodies>,
+    /// What lets heat flow, where any does.
+    transfer: Option<Transfer>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.
@@ -105,8 +107,6 @@ pub struct Simulation {
     workspace: Workspace,
     /// What is needed to return to the beginning of a communication step that fails.
     rollback: Rollback,
-    /// How communication steps were divided.
-    repeats: Repeats,
     /// A flag that another thread sets to end the present interval.
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each stage of a time step.
@@ -128,6 +128,8 @@ struct Workspace {
     nodes: nodes::NodeWorkspace,
     /// How many contacts each body has.
     contacts: Vec<u8>,
+    /// How bonded bodies vibrate.
+    vibrations: Vibrations,
     /// Bonds of each law before some were made.
     bonds: Vec<usize>,
     /// Loads between one kind of force and the next, for the energy book.

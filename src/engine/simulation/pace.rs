@@ -13,13 +13,17 @@ use crate::scene::Kind;
 use crate::scene::{Scene, Step};
 
 /// Time steps after which all contacts are looked at again. Such a look takes about as long as a time step.
-const BETWEEN_LOOKS: u64 = 256;
+pub(super) const BETWEEN_LOOKS: u64 = 256;
 
 /// The longest time step over the stable one where a servo follows what it presses on.
 const SERVED_PART: f64 = 0.2;
 
 /// (ω Δt)² over the error of a body's frequency ω on its springs: 24, and less by what higher powers add.
 const SPRUNG: f64 = 20.0;
+
+/// (ω Δt)² over the error of the amplitude of a vibration of angular frequency ω that begins with a velocity: velocity Verlet
+/// swings it out by 1/√(1 − (ω Δt)²/4). The frequency is off by a third of that.
+const SWUNG: f64 = 8.0;
 
 /// What was looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +62,15 @@ impl Simulation {
         });
         let square = bodies.fold(0.0, f64::max);
         (SPRUNG * self.scene.run.accuracy.error() / square).sqrt()
+    }
+
+    /// The time step in which bonded bodies vibrate as accurately as impacts are; infinite where none vibrates or the scene gives it
+    /// otherwise \[s\].
+    pub(super) fn longest_by_vibration(&self) -> f64 {
+        if self.scene.run.step != Step::Following {
+            return f64::INFINITY;
+        }
+        (SWUNG * self.scene.run.accuracy.error() / self.state.pace.vibration).sqrt()
     }
 
     /// Impacts of each two materials that can meet.
@@ -115,6 +128,16 @@ impl Simulation {
         if self.scene.run.step != Step::Following {
             return;
         }
+        let mut vibrations = std::mem::take(&mut self.workspace.vibrations);
+        let system = self.system();
+        let is_bonded = system.is_bonded();
+        let vibration = if is_bonded {
+            system.find_clusters(&mut vibrations.clusters);
+            system.vibration(&mut vibrations)
+        } else {
+            0.0
+        };
+        let clusters = is_bonded.then_some(&vibrations.clusters);
         let Self { scene, state, fields, bodies, passes, workspace, .. } = self;
         let speeds = course::speeds(scene, bodies, state, state.clock.step).collect();
         let room = std::mem::take(&mut workspace.contacts);
@@ -122,18 +145,19 @@ impl Simulation {
         let time = (2.0 * state.neighbours.skin / speed).min(BETWEEN_LOOKS as f64 * LONGEST_PART * state.clock.stable);
         // At the start no stable step is known.
         let time = if time > 0.0 { time } else { f64::INFINITY };
-        let mut found = Encounters::of(state, (fields, bodies), (speeds, room), (whole, time));
+        let mut found = Encounters::of(state, (fields, bodies), (speeds, room), clusters, (whole, time));
         for pass in &*passes {
             pass.encounters(state, &mut found);
         }
         let energies = found.energies;
         let packed = if whole { energies.packed } else { state.pace.packed };
-        let all = energies.impacts + energies.coming + packed;
+        let all = energies.impacts + energies.coming + energies.held + packed;
         let share = if energies.impacts > 0.0 { (energies.impacts / all).min(1.0) } else { 0.0 };
         let whole_at = if whole { state.clock.steps } else { state.pace.whole_at };
-        state.pace =
-            Pace { share, packed, whole_at, until: state.clock.time + time, rebuilds: state.clock.rebuilds, speed };
+        let (until, rebuilds) = (state.clock.time + time, state.clock.rebuilds);
+        state.pace = Pace { share, packed, vibration, whole_at, until, rebuilds, speed };
         workspace.contacts = found.into_room();
+        workspace.vibrations = vibrations;
     }
 }
 

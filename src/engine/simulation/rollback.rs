@@ -103,7 +103,6 @@ impl Simulation {
     /// its beginning.
     pub fn advance_or_roll_back(&mut self, interval: f64) -> Result<(), RunError> {
         self.rollback.note(&self.state, interval);
-        self.repeats.record(&self.state.clock);
         self.advance(interval).inspect_err(|_| self.go_back())
     }
 

@@ -239,6 +239,7 @@ impl Simulation {
             | RunError::CellNarrow { .. }
             | RunError::SurfaceRunaway { .. }
             | RunError::Turn { .. }
+            | RunError::Frozen { .. }
             | RunError::PutAtPlane { .. }
             | RunError::Invalid { .. }
             | RunError::Stopped { .. }

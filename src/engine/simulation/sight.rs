@@ -5,6 +5,7 @@ use crate::engine::bodies::RigidBody;
 use crate::engine::boundaries::course;
 use crate::engine::contacts::{FASTER, SearchLimits};
 use crate::engine::stability;
+use crate::engine::state::Row;
 use crate::laws::bond::creation::Window;
 
 /// Time steps for which bonds to come and the slow motion of a bed are foreseen, about.
@@ -17,6 +18,9 @@ const STEPS_OF_DENSE_FLOW: f64 = 6000.0;
 
 /// Time steps in which free fall may use up the speed that was foreseen.
 const STEPS_OF_FALL: f64 = 50.0;
+
+/// Time steps that anything may have made from rest, by its present load alone, before what came of it is seen.
+const STEPS_OF_START: f64 = 2.0;
 
 /// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
 const CERTAIN: f64 = 0.005;
@@ -50,6 +54,8 @@ pub(super) struct LookAhead {
     pub(super) speed: f64,
     /// The largest speed of anything \[m/s\].
     pub(super) fastest: f64,
+    /// Whether nothing moves, and no load is about to move anything.
+    pub(super) rests: bool,
     /// By how much a cell that is deformed may bring neighbours nearer until the next look \[m\].
     pub(super) strained: f64,
     /// Whether it is a dense flow: impacts of bodies that are in no list do not limit the time step. Never where that is near the
@@ -78,7 +84,10 @@ impl Simulation {
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state, step).collect::<Vec<_>>();
         let streaming = self.cell.as_ref().map_or(0.0, |cell| cell.speed(&self.state));
         let driven = boundaries.iter().copied().fold(streaming, f64::max);
-        let acceleration = self.fields.acceleration(&self.state.particles);
+        let answer = self.acceleration();
+        // What stands begins to move by its load, whatever that is; what moves has already done so.
+        let sudden = if answer * step > fastest { answer } else { 0.0 };
+        let acceleration = self.fields.acceleration(&self.state.particles).max(sudden);
         let least = self.search.smallest_radius().min(f64::MAX);
         let mean = self.mean_overlap();
         // Strain comes whatever the bodies do.
@@ -93,7 +102,8 @@ impl Simulation {
         let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
         let is_dense = is_far && self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
         let fastest = fastest.max(driven);
-        let way = margin.max(way(false, fastest * faster / FASTER, step)).max(way(is_dense, fastest, step));
+        let begun = STEPS_OF_START * STEPS_OF_START * answer * step * step;
+        let way = margin.max(way(false, fastest * faster / FASTER, step)).max(way(is_dense, fastest, step)).max(begun);
         let margin = margin + strained;
         let clock = &self.state.clock;
         let window = Window {
@@ -104,7 +114,29 @@ impl Simulation {
         };
         let window = (!self.scene.bonds.is_empty()).then_some(window);
         let moved = self.bodies.iter().map(|body| body.as_ref().is_some_and(RigidBody::is_free)).collect();
-        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, moved, streaming, window };
-        LookAhead { ahead, speed, fastest, strained, is_dense }
+        let loads = self.bodies.iter().zip(&self.state.boundaries).map(|(body, moved)| {
+            let body = body.as_ref().filter(|body| body.is_free());
+            body.map_or(0.0, |body| body.mass * body.acceleration(moved, body.farthest))
+        });
+        let loads = loads.collect();
+        let ahead = SearchLimits { margin, way, acceleration, faster, boundaries, loads, moved, streaming, window };
+        let rests = fastest == 0.0 && answer == 0.0;
+        LookAhead { ahead, speed, fastest, rests, strained, is_dense }
+    }
+
+    /// The largest acceleration that anything has by its present load \[m/s²\].
+    fn acceleration(&self) -> f64 {
+        let particles = &self.state.particles;
+        let square = |(force, velocity): (&Row, &Row)| {
+            (force[0] * force[0] + force[1] * force[1] + force[2] * force[2]) / (velocity[3] * velocity[3])
+        };
+        let rows = particles.force.iter().zip(&particles.velocity).zip(&particles.owner);
+        let free = rows.filter(|(_, owner)| **owner == 0).map(|(rows, _)| square(rows));
+        let clumps = self.state.clumps.force.iter().zip(&self.state.clumps.velocity).map(square);
+        let bodies = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
+            let body = body.as_ref().filter(|body| body.is_free())?;
+            Some(body.acceleration(moved, body.farthest))
+        });
+        bodies.fold(free.chain(clumps).fold(0.0, f64::max).sqrt(), f64::max)
     }
 }

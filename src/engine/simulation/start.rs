@@ -6,18 +6,19 @@ use crate::engine::bodies::boundary;
 use crate::engine::boundaries::{course, nodes, placing};
 use crate::engine::flow;
 use crate::engine::state::{BoundaryState, State};
+use crate::engine::transfer;
 use crate::scene::{AxisMotion, Scene};
 use std::sync::Arc;
 
 impl Simulation {
     /// The scene at time 0 with particles, contacts, springs and bonds as in a state that was reached before:
-    /// boundaries stand where the scene has them, along free axes where they have come to; every count and book begins
+    /// boundaries stand where the scene has them, along free axes and those of servos where they have come to; every count and book begins
     /// anew, forces are evaluated.
     pub fn settled(scene: Arc<Scene>, reached: State) -> Result<Self, RunError> {
-        let State { particles, clumps, mut neighbours, contacts, walls, bonds, exchange, cell, .. } = reached;
+        let State { particles, clumps, mut neighbours, contacts, walls, bonds, exchange, cell, heat, .. } = reached;
         neighbours.made_at = 0;
         let mut state =
-            State { particles, clumps, neighbours, contacts, walls, bonds, exchange, ..assemble::state(&scene) };
+            State { particles, clumps, neighbours, contacts, walls, bonds, exchange, heat, ..assemble::state(&scene) };
         if let (Some(begun), Some(ended)) = (&mut state.cell, cell) {
             begun.stay(ended);
         }
@@ -74,6 +75,7 @@ impl Simulation {
         if let (Some(cell), Some(given)) = (&self.cell, &inputs.cell) {
             moves |= cell.put(&mut self.state, given);
         }
+        loads |= transfer::put(&self.scene, self.state.heat.as_mut(), inputs.heat.as_ref());
         if moves {
             boundary::place_groups(&self.scene, &self.bodies, &mut self.state);
             self.rebuild(&self.standing());
@@ -96,6 +98,11 @@ impl Simulation {
         }
         if let (Some(cell), Some(given)) = (&mut self.state.cell, &other.state.cell) {
             (cell.target, cell.target_rate) = (given.target, given.target_rate);
+        }
+        if let (Some(heat), Some(given)) = (&mut self.state.heat, &other.state.heat) {
+            for (boundary, given) in heat.boundaries.iter_mut().zip(&given.boundaries) {
+                (boundary.target, boundary.target_rate) = (given.target, given.target_rate);
+            }
         }
         take_rates(&mut self.state, &other.state);
     }
@@ -144,6 +151,10 @@ fn take_rates(state: &mut State, other: &State) {
 /// Leaves the free axes of a boundary where they have come to, and as fast as they are.
 fn stay(axes: &[AxisMotion; 6], begun: &mut BoundaryState, ended: &BoundaryState) {
     let is_free = |axis: usize| axes[axis].is_free();
+    for axis in (0..3).filter(|&axis| axes[axis].servo().is_some()) {
+        begun.displacement[axis] = ended.displacement[axis];
+        begun.pivot[axis] = ended.pivot[axis];
+    }
     for axis in (0..3).filter(|&axis| is_free(axis)) {
         begun.displacement[axis] = ended.displacement[axis];
         begun.velocity[axis] = ended.velocity[axis];

@@ -2,6 +2,7 @@
 
 use super::{RunError, Simulation};
 use crate::engine::bodies::clumps;
+use crate::engine::columns;
 use crate::engine::flow;
 use crate::engine::state::{State, StateFault, demand};
 use crate::scene::Step;
@@ -22,6 +23,7 @@ impl Simulation {
         state.check(&self.state)?;
         self.search.check(state)?;
         clumps::check(&self.scene, state)?;
+        columns::check(&self.scene, &state.particles)?;
         let count = state.particles.len();
         if let Some(exchange) = &state.exchange {
             flow::check(&self.scene, &state.particles, exchange)?;
@@ -30,6 +32,7 @@ impl Simulation {
             state.particles.orientation.len() == count || !self.passes.iter().any(|it| it.needs_orientations());
         demand(orientations, "orientation", state.particles.orientation.len(), "one for each particle")?;
         let step = match self.scene.run.step {
+            Step::Given(step) if self.divides() => state.clock.step > 0.0 && state.clock.step <= step,
             Step::Given(step) => state.clock.step == step,
             Step::Automatic { .. } | Step::Following => (0.0..f64::INFINITY).contains(&state.clock.step),
         };

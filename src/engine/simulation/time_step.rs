@@ -82,7 +82,11 @@ impl Simulation {
     pub(super) fn step(&mut self, progress: Progress, context: &Context) -> Result<(), RunError> {
         let moment = self.advance_clock(context.step);
         let mut step = TimeStep::of(Progress { time: moment.to, ..progress }, moment, context);
-        Phase::ALL.into_iter().for_each(|phase| self.run_stages(phase, &mut step));
+        for phase in Phase::ALL {
+            if phase != Phase::Forces || !self.scene.heat.frozen {
+                self.run_stages(phase, &mut step);
+            }
+        }
         if step.ends || self.state.clock.speed.is_finite() { step.found } else { Err(self.not_finite()) }
     }
 

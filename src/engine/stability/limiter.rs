@@ -1,5 +1,7 @@
 //! What limits the time step, and how it is told.
 
+use crate::engine::state::GONE;
+
 /// The interaction that limits the time step, and how its bodies move against it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limiter {
@@ -16,8 +18,15 @@ pub struct Limiter {
 }
 
 impl Limiter {
+    /// Heat: no body has more in it than the whole network.
+    pub(crate) const HEAT: Self =
+        Self { kind: LimiterKind::Heat, first: GONE, second: None, boundary: None, mode: Mode::Normal };
+
     /// In words, with what particles and boundaries are called.
     pub fn words(&self, number: impl Fn(u32) -> u32, boundary: impl Fn(u32) -> String) -> String {
+        if self.kind == LimiterKind::Heat {
+            return self.kind.words().to_owned();
+        }
         if let (LimiterKind::Support, Some(index)) = (self.kind, self.boundary) {
             return format!("{} of boundary {} to the ground", self.kind.words(), boundary(index));
         }
@@ -46,6 +55,8 @@ pub enum LimiterKind {
     ComingBond,
     /// Springs that hold a boundary to the ground.
     Support,
+    /// Heat that flows between bodies.
+    Heat,
 }
 
 impl LimiterKind {
@@ -58,6 +69,7 @@ impl LimiterKind {
             Self::Bond => "the bond",
             Self::ComingBond => "a bond to come",
             Self::Support => "the springs",
+            Self::Heat => "the conduction of heat",
         }
     }
 }

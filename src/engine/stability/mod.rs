@@ -16,6 +16,7 @@ mod network;
 mod plain;
 mod shares;
 mod triangle;
+mod vibration;
 
 use crate::base::threads::Context;
 use crate::engine::bodies::{RigidBody, Striker};
@@ -26,6 +27,7 @@ use crate::scene::{Insertion, Scene};
 use impacts::Impact;
 pub use limiter::{Limiter, LimiterKind, Mode};
 use network::Network;
+pub(crate) use vibration::Vibrations;
 
 /// What limits the time step.
 #[derive(Clone, Debug, PartialEq)]

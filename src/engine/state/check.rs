@@ -6,6 +6,7 @@
 //! ([`Pass::check`](crate::engine::contacts::Pass::check)).
 
 use super::boundaries::Pressed;
+use super::particles::{Entry, each_column};
 use super::{BondList, BoundaryState, Clock, Columns, ContactList, Foresight, Ledger, Losses, Neighbours, Particles};
 use super::{
     CellState, Clumps, Exchange, GONE, History, IMAGE, NearParts, Nodes, Pace, Row, State, Underway, WallContacts,
@@ -60,7 +61,7 @@ fn finite(rows: &[Row], part: &'static str) -> Result<(), StateFault> {
 }
 
 /// Whether numbers are finite.
-fn all_finite(numbers: &[f64], part: &'static str) -> Result<(), StateFault> {
+pub(super) fn all_finite(numbers: &[f64], part: &'static str) -> Result<(), StateFault> {
     demand_all(numbers.iter().map(|number| number.is_finite()), part, FINITE)
 }
 
@@ -114,7 +115,13 @@ impl State {
         } else {
             self.particles.check_same(&other.particles)?;
         }
+        demand(self.heat.is_some() == other.heat.is_some(), "heat", 0, "temperatures where heat flows")?;
+        if let (Some(heat), Some(other)) = (&self.heat, &other.heat) {
+            heat.check(other, self.particles.slot.len(), self.exchange.is_none())?;
+        }
         let same = "as many as the scene has";
+        let declared = self.particles.declared.len();
+        demand(declared == other.particles.declared.len(), "declared", declared, same)?;
         let stay = self.exchange.is_some() || self.clumps.len() == other.clumps.len();
         demand(stay, "clumps", self.clumps.len(), same)?;
         demand(self.contacts.len() == other.contacts.len(), "contacts", self.contacts.len(), same)?;
@@ -193,17 +200,23 @@ impl Clock {
         all_finite(&numbers, "clock")?;
         let lengths = self.step > 0.0 && self.last_step >= 0.0 && self.stable > 0.0 && self.speed >= 0.0;
         demand(lengths, "clock", 0, "a step above 0 and a speed of 0 or above")?;
-        demand(self.steps < MOST && self.rebuilds < MOST, "clock", 1, "a count that can be reached")
+        demand(
+            [self.steps, self.rebuilds, self.divided].iter().all(|count| *count < MOST),
+            "clock",
+            1,
+            "a count that can be reached",
+        )
     }
 }
 
 impl Underway {
     /// Whether this can be one.
     fn check(&self) -> Result<(), StateFault> {
-        let Self { done, count, step, passed, length, boundary_speed } = *self;
+        let Self { begun, done, count, step, passed, length, boundary_speed } = *self;
         all_finite(&[step, passed, length, boundary_speed], "underway")?;
         let lengths = step > 0.0 && length > 0.0 && (0.0..1.0).contains(&passed) && boundary_speed >= 0.0;
         demand(lengths, "underway", 0, "steps above 0 and a share from 0 to 1")?;
+        demand(begun < MOST, "underway", 2, "a count that can be reached")?;
         demand(done < count, "underway", 1, "time steps that are left")
     }
 }
@@ -224,9 +237,9 @@ impl Foresight {
 impl Pace {
     /// Whether this can be one.
     fn check(&self) -> Result<(), StateFault> {
-        let Self { share, packed, whole_at, until, rebuilds, speed } = *self;
+        let Self { share, packed, whole_at, until, rebuilds, speed, vibration } = *self;
         demand((0.0..=1.0).contains(&share), "pace", 0, "a share from 0 to 1")?;
-        demand(packed >= 0.0 && speed >= 0.0 && until >= 0.0, "pace", 1, "numbers of 0 or above")?;
+        demand([packed, speed, until, vibration].iter().all(|it| *it >= 0.0), "pace", 1, "numbers of 0 or above")?;
         demand(whole_at < MOST && rebuilds < MOST, "pace", 2, "a count that can be reached")
     }
 }
@@ -235,16 +248,13 @@ impl Particles {
     /// Whether these can be particles, each in one slot.
     fn check(&self) -> Result<(), StateFault> {
         let count = self.len();
-        let lengths = [self.position.len(), self.velocity.len(), self.angular_velocity.len(), self.force.len()];
-        let more = [self.torque.len(), self.material.len(), self.owner.len(), self.id.len()];
         let expected = "one for each particle";
-        demand_all(lengths.iter().chain(&more).map(|length| *length == count), "particles", expected)?;
-        demand(
-            self.orientation.is_empty() || self.orientation.len() == count,
-            "orientation",
-            self.orientation.len(),
-            expected,
-        )?;
+        let may_be_absent = self.orientation.is_empty();
+        each_column!(self, |name, _images, column| {
+            let is_absent = may_be_absent && name == "orientation";
+            demand(column.len() == count || is_absent, name, column.len(), expected)?;
+            demand_all(column.iter().map(Entry::is_finite), name, FINITE)?;
+        });
         demand(self.bonds.is_empty() || self.bonds.len() == self.slot.len(), "bonds", self.bonds.len(), expected)?;
         self.check_places()?;
         let numbers = self.id.iter().enumerate().map(|(slot, &id)| match self.owner[slot] {
@@ -257,15 +267,6 @@ impl Particles {
         demand_all(numbers, "id", "each particle in one slot")?;
         let loads = self.force.iter().chain(&self.torque).map(|row| row[3] == 0.0);
         demand_all(loads, "force", "0 behind each load")?;
-        let rows = [
-            (&self.position, "position"),
-            (&self.velocity, "velocity"),
-            (&self.angular_velocity, "angular_velocity"),
-            (&self.force, "force"),
-            (&self.torque, "torque"),
-            (&self.orientation, "orientation"),
-        ];
-        rows.into_iter().try_for_each(|(rows, part)| finite(rows, part))?;
         self.check_energy()
     }
 

@@ -20,6 +20,8 @@ pub struct Clock {
     pub speed: f64,
     /// Time steps made since time 0.
     pub steps: u64,
+    /// Those of them that were made shorter than the scene says, as the stable step was below that.
+    pub divided: u64,
     /// Times the neighbour lists were made.
     pub rebuilds: u64,
 }
@@ -30,6 +32,8 @@ pub(crate) const MOST_STEPS: f64 = 1e15;
 /// A communication step of which a part has been made.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Underway {
+    /// Number of the time step with which it began.
+    pub begun: u64,
     /// Time steps done since it was divided last.
     pub done: u64,
     /// Time steps in all since then.

@@ -12,6 +12,7 @@ pub mod clumps;
 pub mod contacts;
 pub mod exchange;
 pub mod foresight;
+pub mod heat;
 mod history;
 mod in_place;
 pub mod ledger;
@@ -33,6 +34,7 @@ pub use clumps::{ClumpRows, Clumps};
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use exchange::Exchange;
 pub use foresight::Foresight;
+pub use heat::Heat;
 pub use history::History;
 pub use ledger::Ledger;
 pub use losses::{Loss, Losses};
@@ -93,6 +95,8 @@ pub struct State {
     pub exchange: Option<Exchange>,
     /// The periodic cell, where the scene has one.
     pub cell: Option<CellState>,
+    /// Temperatures, where heat flows.
+    pub heat: Option<Heat>,
 }
 
 clone_in_place!(State {
@@ -116,7 +120,8 @@ clone_in_place!(State {
     damping_force,
     damping_impulse,
     exchange,
-    cell
+    cell,
+    heat
 });
 
 impl State {
@@ -221,6 +226,9 @@ impl State {
         }
         if let Some(cell) = &mut self.cell {
             cell.begin_counting();
+        }
+        if let Some(heat) = &mut self.heat {
+            heat.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

@@ -1,11 +1,12 @@
 //! Adds particles to the state and removes them from it, with their entries in every list.
 
+use super::particles::each_column;
 use super::{BondList, Columns, ContactList, GONE, IMAGE, NearParts, Particles, Row, State, WallContacts};
 use crate::base::geometry::Quaternion;
 
 /// A particle to be added.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InsertedParticle {
+pub struct InsertedParticle<'a> {
     /// Centre \[m\] and radius \[m\].
     pub position: Row,
     /// Velocity \[m/s\] and mass \[kg\].
@@ -16,42 +17,31 @@ pub struct InsertedParticle {
     pub material: u32,
     /// Its number in outputs.
     pub number: u32,
+    /// Its values of the declared columns.
+    pub declared: &'a [f64],
 }
 
 impl Particles {
     /// Keeps the rows of slots for which this holds, in their order. Which slot a particle has is to be found again.
     pub(crate) fn keep_rows(&mut self, stays: impl Fn(usize) -> bool) {
-        for rows in [
-            &mut self.position,
-            &mut self.velocity,
-            &mut self.angular_velocity,
-            &mut self.force,
-            &mut self.torque,
-            &mut self.orientation,
-        ] {
-            keep(rows, &stays);
-        }
-        for numbers in [&mut self.material, &mut self.owner, &mut self.id] {
-            keep(numbers, &stays);
-        }
+        each_column!(self, |_name, _images, column| keep(column, &stays));
     }
 
     /// Adds an image of the particle in each of these slots.
     pub(crate) fn add_images(&mut self, originals: &[u32]) {
-        for rows in [&mut self.position, &mut self.velocity, &mut self.angular_velocity, &mut self.orientation] {
-            if !rows.is_empty() {
-                let copies: Vec<Row> = originals.iter().map(|&slot| rows[slot as usize]).collect();
-                rows.extend(copies);
+        let first = self.len();
+        each_column!(&mut *self, |_name, images, column| if !column.is_empty() {
+            match images {
+                OfImages::Loads => column.resize(first + originals.len(), Default::default()),
+                OfImages::Followed | OfImages::Constant => {
+                    column.reserve(originals.len());
+                    for &slot in originals {
+                        column.push(column[slot as usize]);
+                    }
+                }
             }
-        }
-        for loads in [&mut self.force, &mut self.torque] {
-            loads.resize(loads.len() + originals.len(), [0.0; 4]);
-        }
-        for numbers in [&mut self.material, &mut self.id] {
-            let copies: Vec<u32> = originals.iter().map(|&slot| numbers[slot as usize]).collect();
-            numbers.extend(copies);
-        }
-        self.owner.resize(self.owner.len() + originals.len(), IMAGE);
+        });
+        self.owner[first..].fill(IMAGE);
     }
 
     /// How many particles the scene itself has: the index of the first one that was inserted.
@@ -97,6 +87,9 @@ impl Particles {
             self.orientation.push(Quaternion::identity().to_row());
         }
         self.material.push(newcomer.material);
+        for (column, &value) in self.declared.iter_mut().zip(newcomer.declared) {
+            column.push(value);
+        }
         self.owner.push(owner);
         self.id.push(index);
         index

@@ -9,6 +9,8 @@ pub struct Pace {
     pub share: f64,
     /// Energy of contacts inside packings, when they were last looked at \[J\].
     pub packed: f64,
+    /// Mean square of the angular frequency with which bonded bodies vibrate, less by what of the energy of bonds is at rest \[1/s²\].
+    pub vibration: f64,
     /// Number of the time step after which they were.
     pub whole_at: u64,
     /// Contacts that come until then were foreseen \[s\].

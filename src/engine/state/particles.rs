@@ -34,6 +34,10 @@ pub struct Particles {
     /// Index of the material.
     #[serde(with = "plain")]
     pub material: Vec<u32>,
+    /// Declared columns that the scene asks for, in its order, each in the unit of its declaration. The particles of a body, a
+    /// group or a clump, have one value of a shared one.
+    #[serde(with = "plain::lists")]
+    pub declared: Vec<Vec<f64>>,
     /// What moves the particle: 0, the forces on it; k + 1, boundary k, to whose group it belongs, or, counted on behind the boundaries, a
     /// clump; [`IMAGE`], another particle.
     #[serde(with = "plain")]
@@ -64,6 +68,7 @@ clone_in_place!(Particles {
     torque,
     orientation,
     material,
+    declared,
     owner,
     id,
     slot,
@@ -71,6 +76,84 @@ clone_in_place!(Particles {
     numbers,
     free
 });
+
+/// What images have in a column.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum OfImages {
+    /// What their particles have at the time.
+    Followed,
+    /// What their particles have ever.
+    Constant,
+    /// Nothing, until passes give them something, which goes on to their particles.
+    Loads,
+}
+
+/// What an entry of a column is.
+pub(crate) trait Entry: Copy + Default + Send + Sync {
+    /// Whether it consists of finite numbers.
+    fn is_finite(&self) -> bool;
+}
+
+impl Entry for Row {
+    fn is_finite(&self) -> bool {
+        self.iter().all(|number| number.is_finite())
+    }
+}
+
+impl Entry for f64 {
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+}
+
+impl Entry for u32 {
+    fn is_finite(&self) -> bool {
+        true
+    }
+}
+
+/// Does something with each column that has an entry for each slot: all that is done with them alike. Of each are known the name, what
+/// images have in it, and the entries, with the type that they have there. A field of the particles that is not named here does not
+/// compile.
+macro_rules! each_column {
+    ($particles:expr, |$name:ident, $images:ident, $column:ident| $work:expr) => {{
+        use $crate::engine::state::particles::OfImages;
+        let $crate::engine::state::Particles {
+            position,
+            velocity,
+            angular_velocity,
+            force,
+            torque,
+            orientation,
+            material,
+            declared,
+            owner,
+            id,
+            slot: _,
+            bonds: _,
+            numbers: _,
+            free: _,
+        } = $particles;
+        each_column!(@ position, OfImages::Followed, $name, $images, $column, $work);
+        each_column!(@ velocity, OfImages::Followed, $name, $images, $column, $work);
+        each_column!(@ angular_velocity, OfImages::Followed, $name, $images, $column, $work);
+        each_column!(@ force, OfImages::Loads, $name, $images, $column, $work);
+        each_column!(@ torque, OfImages::Loads, $name, $images, $column, $work);
+        each_column!(@ orientation, OfImages::Followed, $name, $images, $column, $work);
+        each_column!(@ material, OfImages::Constant, $name, $images, $column, $work);
+        each_column!(@ owner, OfImages::Constant, $name, $images, $column, $work);
+        each_column!(@ id, OfImages::Constant, $name, $images, $column, $work);
+        for declared in declared {
+            each_column!(@ declared, OfImages::Followed, $name, $images, $column, $work);
+        }
+    }};
+    (@ $field:ident, $rule:expr, $name:ident, $images:ident, $column:ident, $work:expr) => {{
+        let ($name, $images, $column) = (stringify!($field), $rule, $field);
+        $work
+    }};
+}
+
+pub(crate) use each_column;
 
 impl Particles {
     /// Counts a bond of these of the scene's particles as made.

@@ -215,7 +215,7 @@ impl State {
     /// An estimate of the length of a snapshot, so that memory is requested once.
     fn size(&self) -> usize {
         let row = size_of::<super::Row>();
-        let particles = self.particles.len() * (8 * row + 24);
+        let particles = self.particles.len() * (8 * row + 24 + 8 * self.particles.declared.len());
         let lists = self.contacts.iter().map(|list| list.first.len() * (list.history.rows() * row + 17));
         let planes = self.walls.iter().map(|list| list.particle.len() * (list.history.rows() * row + 17));
         let bonds = self.bonds.iter().map(|list| list.first.len() * (list.rows.len() * row + 8));

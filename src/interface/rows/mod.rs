@@ -6,6 +6,7 @@
 mod boundaries;
 mod cell;
 mod exchange;
+mod heat;
 mod probes;
 mod regions;
 mod row;
@@ -17,6 +18,7 @@ use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
+use heat::{OF_HEAT, OF_HEATED};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
 use row::Each;
@@ -53,7 +55,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         let of_nodes = OF_NODES
             .iter()
             .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_node(node))));
-        OF_BOUNDARIES.iter().map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
+        OF_BOUNDARIES.iter().chain(&OF_HEATED).map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
     });
     let each = |rows: &'static [Row], count: usize| {
         (0..count).flat_map(move |place| rows.iter().map(move |row| (row, none.at_place(place))))
@@ -62,7 +64,8 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         .chain(each(&OF_OUTLETS, scene.outlets.len()))
         .chain(each(&OF_METERS, scene.meters.len()))
         .chain(each(&OF_PROBES, scene.probes.len()));
-    let of_scene = OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).map(|row| (row, none));
+    let of_scene =
+        OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).chain(&OF_HEAT).map(|row| (row, none));
     let places = of_boundaries
         .chain(each(&OF_REGIONS, scene.regions.len()))
         .chain(exchange)
@@ -75,8 +78,8 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
     let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN).chain(&OF_PROBES);
-    let of_parts = OF_BOUNDARIES.iter().chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
-    of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES)
+    let of_parts = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
+    of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 
 impl Source {

@@ -23,7 +23,7 @@ fn of_contact(scene: &Scene, at: At) -> bool {
 }
 
 /// Variables of each probe.
-pub(super) static OF_PROBES: [Row; 7] = [
+pub(super) static OF_PROBES: [Row; 8] = [
     Row {
         name: "position",
         description: "place of the particle of {owner}, or of the mass centre of its set, along {axis}",
@@ -46,6 +46,16 @@ pub(super) static OF_PROBES: [Row; 7] = [
         quantity: Quantity::AngularVelocity,
         exists: of_one,
         read: |now, at| Value::Real(now.sight(at).angular_velocity[at.axis()]),
+        ..OF_PROBE
+    },
+    Row {
+        name: "temperature",
+        each: Each::Probe,
+        description: "temperature of the particle of {owner}, or mean by heat capacity of its set",
+        quantity: Quantity::Temperature,
+        minimum: Some(0.0),
+        exists: |scene, at| scene.has_heat() && of_particles(scene, at),
+        read: |now, at| Value::Real(now.sight(at).temperature),
         ..OF_PROBE
     },
     Row {

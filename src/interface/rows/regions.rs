@@ -7,7 +7,7 @@ use crate::interface::{Quantity, Value};
 pub(super) const OF_REGION: Row = Row { each: Each::Region, ..OUTPUT };
 
 /// Variables of each region.
-pub(super) static OF_REGIONS: [Row; 6] = [
+pub(super) static OF_REGIONS: [Row; 7] = [
     Row {
         name: "stress",
         each: Each::Component,
@@ -34,11 +34,20 @@ pub(super) static OF_REGIONS: [Row; 6] = [
         ..OF_REGION
     },
     Row {
-        name: "temperature",
+        name: "granular_temperature",
         description: "a third of the mean square of the velocity in {region} less the mean velocity, by mass",
         quantity: Quantity::GranularTemperature,
         minimum: Some(0.0),
-        read: |now, at| Value::Real(now.content(at).temperature()),
+        read: |now, at| Value::Real(now.content(at).granular_temperature()),
+        ..OF_REGION
+    },
+    Row {
+        name: "temperature",
+        description: "temperature in {region}, mean by heat capacity; 0 where there is no particle",
+        quantity: Quantity::Temperature,
+        minimum: Some(0.0),
+        exists: |scene, _| scene.has_heat(),
+        read: |now, at| Value::Real(now.content(at).temperature),
         ..OF_REGION
     },
     Row {

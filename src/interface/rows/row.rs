@@ -97,7 +97,7 @@ pub(in crate::interface) struct At {
 }
 
 impl At {
-    /// That of a variable that is of no row, or of the whole scene.
+    /// The place of a variable that is of no row, or of the whole scene.
     pub(in crate::interface) const NOWHERE: Self = Self { boundary: BoundaryIndex(0), node: 0, place: 0, axis: 0 };
 
     /// At this boundary.

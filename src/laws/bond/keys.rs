@@ -72,6 +72,8 @@ pub struct Keys {
     pub damping: Option<DampingChoice>,
     /// τ: relaxation times \[s\]; none where absent.
     pub relaxation: Option<PartKeys<Positive>>,
+    /// Conductivity of its material, in parallel to the contact; none where the bond conducts nothing \[W/(m K)\].
+    pub conductivity: Option<Positive>,
     /// Refused.
     pub temperature_break: Option<Never>,
 }

@@ -11,6 +11,7 @@ use super::{
 };
 use crate::base::number::{Number, Vector};
 use crate::base::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
+use crate::laws::contact::Thermal;
 
 /// Friction that takes all there is.
 pub(super) const ALL: FrictionNeeds = FrictionNeeds { stiffness: true, damping: true };
@@ -183,7 +184,8 @@ pub(crate) fn corners() -> Vec<Contact> {
 
 /// A material with E = 2 Pa and ν = 0: two of them have E* = 1 Pa and G* = ¼ Pa.
 pub(super) fn material() -> Material {
-    Material { name: "soft".into(), density: 1.0, youngs_modulus: Some(2.0), poissons_ratio: Some(0.0) }
+    let thermal = Thermal::default();
+    Material { name: "soft".into(), density: 1.0, youngs_modulus: Some(2.0), poissons_ratio: Some(0.0), thermal }
 }
 
 /// All properties of two materials, each another number.
@@ -209,6 +211,8 @@ pub(crate) fn properties() -> PairProperties {
         unloading_stiffness_ratio: AtLeastOne::new(4.0),
         pull_off_force: NonNegative::new(0.0),
         adhesion_stiffness_ratio: NonNegative::new(0.5),
+        conductivity: None,
+        heat_transfer_coefficient: NonNegative::new(2000.0),
     }
 }
 

@@ -164,7 +164,7 @@ pub(crate) struct ErrorCurve {
 }
 
 impl ErrorCurve {
-    /// That of these impacts, down to this error.
+    /// The curve of these impacts, down to this error.
     pub(crate) fn of(impacts: &[Impact], least: f64) -> Self {
         let right: Vec<f64> = impacts.iter().map(Impact::restitution).collect();
         let (mut points, mut part, mut within) = (Vec::new(), LONGEST_PART, 0);

@@ -4,8 +4,8 @@
 use super::pressing_force;
 use super::{
     Adhesion, Booked, Carry, CoefficientPlaces, Coefficients, CohesionFunctions, Contact, HistoryPlaces, HistoryRow,
-    LawChoice, Needs, NormalForce, NormalFunctions, Onset, Reaction, Response, RollingFunctions, RollingResponse,
-    Scheme, SchemeMemory, Switches, TangentialFunctions, foresee_normal,
+    LawChoice, LossKind, Needs, NormalForce, NormalFunctions, Onset, Reaction, Response, RollingFunctions,
+    RollingResponse, Scheme, SchemeMemory, Switches, TangentialFunctions, Warming, foresee_normal,
 };
 use crate::base::number::{Row, Vector};
 
@@ -51,6 +51,8 @@ pub struct Law {
     places: CoefficientPlaces,
     /// Whether its cohesion model acts beyond touch.
     parts: bool,
+    /// Which losses warm the bodies.
+    warming: Warming,
     /// What the scene named.
     choice: LawChoice,
 }
@@ -65,6 +67,11 @@ impl Law {
             self.history.push(OTHER_LOADS);
         }
         self
+    }
+
+    /// The same law, of which these losses warm the bodies.
+    pub fn warming(self, warming: Warming) -> Self {
+        Self { warming, ..self }
     }
 
     /// The same law, of whose contacts records show exactly what the last evaluation saw.
@@ -137,6 +144,7 @@ impl Law {
             carries,
             predicts_normal_alone: self.history_places.normal_velocity.is_some(),
             least_force: self.choice.normal.row().count,
+            warming: self.warming,
         }
     }
 
@@ -179,7 +187,7 @@ impl Law {
             count: after_rolling + cohesion.row().count,
         };
         let parts = cohesion.row().does.beyond_touch;
-        Self { history, history_places, places, parts, choice: *choice }
+        Self { history, history_places, places, parts, warming: [false; LossKind::COUNT], choice: *choice }
     }
 
     /// Where the coefficients of each sub-model stand in a row of them.

@@ -34,6 +34,9 @@ impl LossKind {
     pub const COUNT: usize = 7;
 }
 
+/// Which kinds of loss warm the bodies, by their place.
+pub type Warming = [bool; LossKind::COUNT];
+
 /// What a book of losses has to know of a law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Booked {
@@ -59,6 +62,8 @@ pub struct Booked {
     pub predicts_normal_alone: bool,
     /// Where the least normal force stands among the coefficients.
     pub least_force: usize,
+    /// Which losses warm the bodies.
+    pub warming: Warming,
 }
 
 impl Booked {
@@ -72,6 +77,24 @@ impl Booked {
     pub fn takes(&self, kind: usize) -> bool {
         let [rolling, other] = [LossKind::Rolling as usize, LossKind::Other as usize];
         (kind != rolling || self.rolling) && (kind != other || self.other)
+    }
+
+    /// Whether losses warm the bodies.
+    #[inline(always)]
+    pub fn warms(&self) -> bool {
+        self.warming != [false; LossKind::COUNT]
+    }
+
+    /// What of these losses is heat \[J\].
+    #[inline(always)]
+    pub fn heat<N: Number>(&self, lost: &[N; LossKind::COUNT]) -> N {
+        let mut heat = N::zero();
+        for (loss, warms) in lost.iter().zip(self.warming) {
+            if warms {
+                heat = heat + *loss;
+            }
+        }
+        heat
     }
 
     /// Whether bodies move otherwise than dashpots see.

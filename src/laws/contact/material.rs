@@ -14,6 +14,19 @@ pub struct Material {
     pub youngs_modulus: Option<f64>,
     /// Poisson's ratio, if the scene gives one.
     pub poissons_ratio: Option<f64>,
+    /// What heat needs.
+    pub thermal: Thermal,
+}
+
+/// What heat needs of a material, as far as the scene gives it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Thermal {
+    /// Conductivity k \[W/(m K)\].
+    pub conductivity: Option<f64>,
+    /// Specific heat c \[J/(kg K)\].
+    pub specific_heat: Option<f64>,
+    /// Young's modulus of the real bodies, whose area of contact at the same force conducts \[Pa\].
+    pub real_youngs_modulus: Option<f64>,
 }
 
 /// Properties of two materials in contact: `[pair.<a>.<b>]`.
@@ -60,6 +73,10 @@ pub struct PairProperties {
     pub pull_off_force: Option<NonNegative>,
     /// Stiffness of the adhesion branch over that of loading of `eepa` with `adhesion = "fixed"`, k_a/k₁.
     pub adhesion_stiffness_ratio: Option<NonNegative>,
+    /// Conductivity of both, in place of those of the materials, k \[W/(m K)\].
+    pub conductivity: Option<Positive>,
+    /// Heat transfer coefficient of the area of contact of `transfer`, h \[W/(m² K)\].
+    pub heat_transfer_coefficient: Option<NonNegative>,
 }
 
 /// For each property that is given: its key, and the properties without it and with another value of it.
@@ -98,6 +115,8 @@ impl PairProperties {
             unloading_stiffness_ratio: AtLeastOne 1.37,
             pull_off_force: NonNegative 0.37,
             adhesion_stiffness_ratio: NonNegative 0.37,
+            conductivity: Positive 0.37,
+            heat_transfer_coefficient: NonNegative 0.37,
         };
         variants.into_iter().flatten()
     }
@@ -181,6 +200,8 @@ needed! {
     pull_off_force,
     /// k_a/k₁.
     adhesion_stiffness_ratio,
+    /// h \[W/(m² K)\].
+    heat_transfer_coefficient,
 }
 
 impl MaterialPair<'_> {
@@ -206,5 +227,34 @@ impl MaterialPair<'_> {
     pub fn effective_shear_modulus(&self) -> Result<f64, Missing> {
         let compliance: f64 = self.elastic()?.iter().map(|(e, nu)| 2.0 * (2.0 - nu) * (1.0 + nu) / e).sum();
         Ok(1.0 / compliance)
+    }
+
+    /// Conductance of a circle of contact over its radius: 4 k_i k_j/(k_i + k_j) \[W/(m K)\].
+    pub fn conductance_per_length(&self) -> Result<f64, Missing> {
+        if let Some(both) = self.properties.conductivity {
+            return Ok(2.0 * both.get());
+        }
+        let of = |material: &Material| {
+            let missing = || Missing { table: format!("material.{}", material.name), key: "conductivity" };
+            material.thermal.conductivity.ok_or_else(missing)
+        };
+        let (k, l) = (of(self.a)?, of(self.b)?);
+        Ok(4.0 * k * l / (k + l))
+    }
+
+    /// Contact radius of the real bodies over that of these, at the same force: (E*/E*₀)^(1/3), 1 where neither material says that it is
+    /// really harder.
+    pub fn real_contact_radius(&self) -> Result<f64, Missing> {
+        let real = |material: &Material| material.thermal.real_youngs_modulus;
+        if real(self.a).is_none() && real(self.b).is_none() {
+            return Ok(1.0);
+        }
+        let as_real = |material: &Material| Material {
+            youngs_modulus: real(material).or(material.youngs_modulus),
+            ..material.clone()
+        };
+        let (a, b) = (as_real(self.a), as_real(self.b));
+        let modulus = MaterialPair { a: &a, b: &b, ..*self }.effective_youngs_modulus()?;
+        Ok(libm::cbrt(self.effective_youngs_modulus()? / modulus))
     }
 }

@@ -1,6 +1,6 @@
 //! Forces and torques between touching bodies: pure functions of one contact and its own history.
 //!
-//! A contact law is composed of four sub-models: normal, tangential, rolling, cohesion. Each is one file
+//! A contact law is composed of four sub-models for forces (normal, tangential, rolling, cohesion) and one for heat. Each is one file
 //! and one row in the list beside it. They are written over [`Number`], so the same source runs one
 //! contact at a time or several in a vector register. No sub-model knows which others it is combined with: they
 //! hand each other a [`NormalForce`], and each of them stores its history of a contact in a row of its own ([`HistoryRow`]).
@@ -15,6 +15,7 @@ pub mod cohesion;
 #[cfg(test)]
 pub(crate) mod fixtures;
 mod functions;
+pub mod heat;
 pub(crate) mod impact;
 mod law;
 mod losses;
@@ -35,16 +36,19 @@ pub(crate) use coefficients::coefficients;
 pub use law::Offset;
 pub use law::{Law, OFFSET};
 pub(crate) use losses::parting;
-pub use losses::{Booked, LossKind, Seen};
-pub use material::{Material, MaterialPair, Missing, PairProperties};
+pub use losses::{Booked, LossKind, Seen, Warming};
+pub use material::{Material, MaterialPair, Missing, PairProperties, Thermal};
 pub use model::{
-    CohesionFunctions, CohesionModel, CohesionRow, Model, ModelRow, NormalFunctions, NormalModel, NormalRow,
-    RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel, TangentialRow,
+    CohesionFunctions, CohesionModel, CohesionRow, HeatFunctions, HeatModel, HeatRow, Model, ModelRow, NormalFunctions,
+    NormalModel, NormalRow, RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel,
+    TangentialRow,
 };
 pub use places::{CoefficientPlaces, HistoryPlaces};
 pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
-pub use sub_model::{Cohesion, CohesionForm, FrictionNeeds, Normal, NormalForm, Rolling, RollingResponse, Tangential};
+pub use sub_model::{
+    Cohesion, CohesionForm, FrictionNeeds, Heat, Normal, NormalForm, Rolling, RollingResponse, Tangential,
+};
 
 pub use crate::laws::kept::ModelKeys;
 

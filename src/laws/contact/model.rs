@@ -3,9 +3,10 @@
 
 use super::batch::{self, Run};
 use super::functions::{self, CohesionFunction, NormalFunction, RollingFunction, TangentialFunction};
+use super::heat::Spot;
 use super::{
-    Adhesion, Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, HistoryRow, MaterialPair, Missing, Needs,
-    Normal, NormalForm, Objection, Onset, Response, Rolling, RollingResponse, Tangential,
+    Adhesion, Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, Heat, HistoryRow, MaterialPair, Missing,
+    Needs, Normal, NormalForm, Objection, Onset, Response, Rolling, RollingResponse, Tangential,
 };
 use crate::base::document::{Document, Faults};
 use crate::base::number::Row;
@@ -136,6 +137,12 @@ pub type RollingModel = Model<RollingFunctions>;
 /// A cohesion sub-model of a scene.
 pub type CohesionModel = Model<CohesionFunctions>;
 
+/// What the program knows of a heat sub-model.
+pub type HeatRow = ModelRow<HeatFunctions>;
+
+/// A heat sub-model of a scene.
+pub type HeatModel = Model<HeatFunctions>;
+
 /// Coefficients as a row.
 pub(super) fn numbers<T: Coefficients>(coefficients: &T) -> Vec<f64> {
     let mut row = Vec::with_capacity(T::COUNT);
@@ -173,14 +180,25 @@ pub struct NormalFunctions {
     pub(super) reach: fn(&[f64], f64) -> f64,
     /// [`NormalForm::tangent_stiffness`].
     pub(super) tangent_stiffness: fn(&[f64], &Contact) -> f64,
+    /// [`Normal::ELASTIC_SPHERES`].
+    pub(crate) elastic_spheres: bool,
+    /// [`NormalForm::contact_radius`].
+    pub(crate) contact_radius: fn(&[f64], f64, f64) -> f64,
     /// What it does to a batch of contacts.
     pub(crate) run: Run,
     /// The same where the force is taken from an offset.
     pub(crate) run_from_offset: Run,
 }
 
+impl NormalFunctions {
+    /// Whether it pulls.
+    pub(crate) fn adhesion(&self) -> Adhesion {
+        self.adhesion
+    }
+}
+
 impl NormalRow {
-    /// That of a normal model.
+    /// The row of a normal model.
     pub const fn of<M: Normal>() -> &'static Self {
         const {
             &Self {
@@ -209,6 +227,10 @@ impl NormalRow {
                     },
                     reach: |row, radius| M::Form::read(row).reach(radius),
                     tangent_stiffness: |row, contact| M::Form::read(row).tangent_stiffness(contact),
+                    elastic_spheres: M::ELASTIC_SPHERES,
+                    contact_radius: |row, overlap, radius| {
+                        M::Form::contact_radius(M::Form::lanes(row), overlap, radius)
+                    },
                     run: batch::normal::<M::Form, false>,
                     run_from_offset: batch::normal::<M::Form, true>,
                 },
@@ -276,7 +298,7 @@ pub struct TangentialFunctions {
 }
 
 impl TangentialRow {
-    /// That of a tangential model.
+    /// The row of a tangential model.
     pub const fn of<M: Tangential>() -> &'static Self {
         const {
             &Self {
@@ -355,7 +377,7 @@ pub struct RollingFunctions {
 }
 
 impl RollingRow {
-    /// That of a rolling model.
+    /// The row of a rolling model.
     pub const fn of<M: Rolling>() -> &'static Self {
         const {
             &Self {
@@ -436,7 +458,7 @@ pub struct CohesionFunctions {
 }
 
 impl CohesionRow {
-    /// That of a cohesion model.
+    /// The row of a cohesion model.
     pub const fn of<M: Cohesion>() -> &'static Self {
         const {
             &Self {
@@ -484,6 +506,53 @@ impl CohesionModel {
 
     /// Its coefficients for two materials.
     pub(super) fn between(&self, pair: &MaterialPair) -> Result<Vec<f64>, Missing> {
+        (self.row.does.between)(self.keys, pair)
+    }
+}
+
+/// What a heat model does.
+pub struct HeatFunctions {
+    /// [`Heat::between`].
+    between: fn(Kept, &MaterialPair) -> Result<Vec<f64>, Missing>,
+    /// [`Heat::conductance`].
+    pub(crate) conductance: fn(&[f64], &Spot) -> f64,
+}
+
+impl HeatRow {
+    /// That of a heat model.
+    pub const fn of<M: Heat>() -> &'static Self {
+        const {
+            &Self {
+                name: M::NAME,
+                active: true,
+                count: M::COUNT,
+                history: None,
+                needs: Needs::NONE,
+                form: TypeId::of::<M>,
+                keys: TypeId::of::<M::Keys>,
+                read: read::<M::Keys>,
+                does: HeatFunctions {
+                    between: |keys, pair| Ok(numbers(&M::between(pair, own(keys))?)),
+                    conductance: |row, spot| M::conductance(M::lanes(row), spot),
+                },
+            }
+        }
+    }
+}
+
+impl HeatModel {
+    /// A heat model with these keys.
+    pub fn of<M: Heat>(keys: M::Keys) -> Self {
+        Self { row: HeatRow::of::<M>(), keys: keep(keys) }
+    }
+
+    /// How many coefficients it has.
+    pub(crate) fn count(&self) -> usize {
+        self.row.count
+    }
+
+    /// Its coefficients for two materials.
+    pub(crate) fn between(&self, pair: &MaterialPair) -> Result<Vec<f64>, Missing> {
         (self.row.does.between)(self.keys, pair)
     }
 }

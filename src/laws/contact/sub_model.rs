@@ -1,5 +1,6 @@
 //! What a sub-model of each kind has to say.
 
+use super::heat::Spot;
 use super::{
     Adhesion, Coefficients, Contact, Friction, HistoryRow, MaterialPair, Missing, ModelKeys, Needs, NormalForce,
     Objection, Onset, Response, Roots, Switches,
@@ -40,6 +41,9 @@ pub trait Normal: Copy + Send + Sync + 'static {
     fn has_undeformed_arms(_keys: &Self::Keys) -> bool {
         false
     }
+    /// Whether the contact radius of a force goes with E*^(−1/3), E* being that of the two materials: then bodies with a
+    /// `real_youngs_modulus` have a known area of contact.
+    const ELASTIC_SPHERES: bool = false;
 }
 
 /// Stiffness and damping of a contact, and the force that follows from them.
@@ -99,6 +103,11 @@ pub trait NormalForm: Coefficients {
     fn elastic_energy(&self, contact: &Contact, offset: f64, history: Row) -> f64;
     /// d(force)/d(overlap) of the elastic part at this overlap, for the stable time step \[N/m\].
     fn tangent_stiffness(&self, contact: &Contact) -> f64;
+    /// Radius of the circle of contact of this overlap \[m\] and effective radius \[m\], through which heat flows \[m\].
+    #[inline(always)]
+    fn contact_radius<N: Number>(_law: Self::Lanes<N>, overlap: N, radius: N) -> N {
+        (radius * overlap.max(N::zero())).sqrt()
+    }
 }
 
 /// Force of spring and dashpot, of so much overlap \[m\] and this velocity along the normal \[m/s\].
@@ -260,4 +269,16 @@ pub trait CohesionForm: Coefficients {
         normal.force = normal.force + pull;
         normal.seen = normal.seen + Self::seen_by_friction(law, pull);
     }
+}
+
+/// Heat that flows where two bodies touch.
+pub trait Heat: Coefficients {
+    /// Its name in a scene.
+    const NAME: &'static str;
+    /// What the scene writes under the model's name.
+    type Keys: ModelKeys;
+    /// The coefficients for two materials.
+    fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
+    /// Heat flow from the warmer body to the colder over the difference of their temperatures \[W/K\].
+    fn conductance<N: Number>(law: Self::Lanes<N>, spot: &Spot<N>) -> N;
 }

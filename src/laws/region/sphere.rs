@@ -41,7 +41,7 @@ pub(super) fn beyond(planes: [f64; 3]) -> f64 {
 /// | z | where the edge of planes a and b leaves the sphere: √(1 − a² − b²); x and y likewise | 1 | |
 /// | Ω | area of the part of the sphere | 1 | |
 ///
-/// It holds for a² + b² + c² < 1; beyond, there is nothing.
+/// The equation holds for a² + b² + c² < 1; beyond, the area is 0.
 fn corner([a, b, c]: [f64; 3]) -> f64 {
     if a * a + b * b + c * c >= 1.0 {
         return 0.0;

@@ -152,7 +152,7 @@ pub trait Surface: Debug + Send + Sync {
 
 /// What a scene writes of a shape, under its key in `[boundary.<name>]`.
 pub trait ShapeKeys: DeserializeOwned + 'static {
-    /// That key.
+    /// The key of the shape.
     const KEY: &'static str;
 
     /// How it is written, for a message.
@@ -181,7 +181,7 @@ pub struct ShapeRow {
 }
 
 impl ShapeRow {
-    /// That of a shape.
+    /// The row of a shape.
     pub const fn of<K: ShapeKeys>() -> &'static Self {
         const {
             &Self {

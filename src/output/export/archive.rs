@@ -3,7 +3,7 @@
 use super::resources::{Content, Resource};
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Cursor, Write};
 use std::path::Path;
 use std::sync::atomic::{AtomicU32, Ordering};
 use zip::write::SimpleFileOptions;
@@ -31,11 +31,15 @@ fn write_to(entries: &[Resource], path: &Path) -> io::Result<()> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
         .last_modified_time(DateTime::DEFAULT);
-    let mut archive = ZipWriter::new(BufWriter::new(File::create_new(path)?));
+    // An archive that cannot be written tells so on the standard error when it is dropped, so it is made in memory.
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for entry in entries {
         let mode = if matches!(entry.content, Content::Program(_)) { 0o755 } else { 0o644 };
         archive.start_file(entry.path.as_str(), options.unix_permissions(mode))?;
         archive.write_all(entry.content.bytes())?;
     }
-    archive.finish()?.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
+    let bytes = archive.finish()?.into_inner();
+    let mut file = File::create_new(path)?;
+    file.write_all(&bytes)?;
+    file.sync_all()
 }

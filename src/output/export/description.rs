@@ -111,8 +111,14 @@ fn units(xml: &mut Xml, interface: &Interface) -> io::Result<()> {
     xml.create_element("UnitDefinitions").write_inner_content(|xml| {
         for (name, quantity) in &units {
             let base = quantity.base_units();
-            let exponents = [("kg", base.kilogram), ("m", base.metre), ("s", base.second), ("rad", base.radian)]
-                .map(|(symbol, exponent)| (symbol, exponent.to_string()));
+            let exponents = [
+                ("kg", base.kilogram),
+                ("m", base.metre),
+                ("s", base.second),
+                ("K", base.kelvin),
+                ("rad", base.radian),
+            ]
+            .map(|(symbol, exponent)| (symbol, exponent.to_string()));
             let present = exponents.iter().filter(|(_, exponent)| exponent != "0");
             xml.create_element("Unit").with_attribute(("name", *name)).write_inner_content(|xml| {
                 xml.create_element("BaseUnit")

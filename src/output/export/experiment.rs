@@ -5,7 +5,7 @@
 
 use super::resources::Resource;
 use crate::engine::simulation::{RunError, Simulation};
-use crate::interface::{Findings, Interface};
+use crate::interface::{Causality, Findings, Interface};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 use std::io;
@@ -40,7 +40,8 @@ impl Experiment {
         let count = (WORK / (STEPS * (particles + SMALL))).clamp(1, LONGEST);
         let step = simulation.state().clock.step * count as f64;
         let inputs: Vec<_> = interface.inputs().map(|(_, variable)| variable).collect();
-        let outputs: Vec<_> = interface.recorded().map(|(index, _)| index).collect();
+        let recorded = || interface.recorded().filter(|(_, variable)| variable.causality == Causality::Output);
+        let outputs: Vec<_> = recorded().map(|(index, _)| index).collect();
         let line = |time: f64, values: &mut dyn Iterator<Item = String>| {
             let mut line = format!("{time:?}");
             values.for_each(|value| line.extend([",", &value]));
@@ -53,7 +54,7 @@ impl Experiment {
         };
         let mut experiment = Self {
             inputs: heading(&mut inputs.iter().map(|variable| variable.name.as_str())),
-            results: heading(&mut interface.recorded().map(|(_, variable)| variable.name.as_str())),
+            results: heading(&mut recorded().map(|(_, variable)| variable.name.as_str())),
         };
         for point in 0..=STEPS {
             if point > 0 {

@@ -4,6 +4,7 @@ mod archive;
 mod description;
 mod experiment;
 mod library;
+mod names;
 mod nodes;
 mod page;
 mod picture;
@@ -41,6 +42,14 @@ pub enum PackageError {
     /// Nor would it in this state.
     #[error(transparent)]
     State(#[from] SnapshotError),
+    /// A table of the unit would have a name that not every system takes.
+    #[error("[boundary.{name}]: its mesh becomes a file of the unit; expected {expected}, found {name:?}")]
+    Name {
+        /// Name of the boundary.
+        name: String,
+        /// What is expected of it.
+        expected: String,
+    },
     /// The file was not written.
     #[error("{}: {cause}; take a path that can be written", path.display())]
     Write {
@@ -77,6 +86,7 @@ pub fn export(
         None => Interface::of(scene),
     };
     interface.check_names(scene)?;
+    nodes::check_names(scene)?;
     let bytes = state.map(|state| state.to_bytes(scene.fingerprint));
     let identifier = identifier(output);
     let written = |cause| PackageError::Write { path: output.to_owned(), cause };
@@ -143,7 +153,12 @@ fn licenses(scene: &Scene) -> Vec<Resource> {
 fn identifier(output: &Path) -> String {
     let stem = output.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let name: String = stem.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
-    if name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_') { name } else { format!("_{name}") }
+    let name: String = name.chars().take(names::LONGEST).collect();
+    if name.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_') && !names::is_reserved(&name) {
+        name
+    } else {
+        format!("_{name}")
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The meshes whose nodes the outside moves, as tables: which node has which number, and which triangles join them.
 
-use super::Resource;
+use super::names::{LONGEST, is_reserved};
+use super::{PackageError, Resource};
 use crate::scene::{Boundary, Scene};
 use std::fmt::Write;
 
@@ -8,6 +9,26 @@ use std::fmt::Write;
 pub(super) fn tables(scene: &Scene) -> Vec<Resource> {
     let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0);
     meshes.flat_map(|mesh| [nodes(mesh), triangles(mesh)]).collect()
+}
+
+/// Refuses names of meshes that cannot be those of files on every system.
+pub(super) fn check_names(scene: &Scene) -> Result<(), PackageError> {
+    let names = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0).map(|mesh| &mesh.name);
+    let mut known: Vec<&String> = Vec::new();
+    for name in names {
+        let twin = known.iter().find(|other| other.eq_ignore_ascii_case(name));
+        let expected = match twin {
+            _ if is_reserved(name) => "a name that no system keeps for a device".to_owned(),
+            _ if name.len() > LONGEST => format!("a name of at most {LONGEST} letters"),
+            Some(twin) => format!("a name that differs from {twin} in more than its case"),
+            None => {
+                known.push(name);
+                continue;
+            }
+        };
+        return Err(PackageError::Name { name: name.clone(), expected });
+    }
+    Ok(())
 }
 
 /// `<boundary>.nodes.csv`: number and place at time 0 of each node.

@@ -3,6 +3,7 @@
 //! [`resources`] writes them, [`read_resources`] reads them back; [`identity`] tells whether they are still
 //! those that the unit's description was made from.
 
+use super::names::LONGEST;
 use crate::scene::Source;
 use std::collections::BTreeMap;
 use std::fs;
@@ -126,6 +127,8 @@ pub fn resources(source: &Source, state: Option<Vec<u8>>) -> Vec<Resource> {
 /// Path of the file with a number and a name: readable, and never outside the folder.
 fn stored(number: usize, name: &str) -> String {
     let last = name.rsplit(['/', '\\']).next().unwrap_or_default();
+    // The end tells what kind of file it is.
+    let last: String = last.chars().skip(last.chars().count().saturating_sub(LONGEST)).collect();
     let safe = |letter: char| if letter.is_ascii_alphanumeric() || letter == '.' { letter } else { '_' };
     format!("files/{number}_{}", last.chars().map(safe).collect::<String>())
 }

@@ -8,8 +8,8 @@ use crate::engine::simulation::Simulation;
 use crate::laws::contact::impact::LONGEST_PART;
 use crate::laws::surface::Group;
 use crate::scene::{
-    Accuracy, AxisMotion, Body, Bond, Boundary, Cell, InputCourse, NodeMotion, Outside, Particle, Scene, SceneDraft,
-    Shape, Step,
+    Accuracy, AxisMotion, Body, Bond, Boundary, BoundaryTemperature, Cell, InputCourse, NodeMotion, Outside, Particle,
+    Scene, SceneDraft, Shape, Step,
 };
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -111,6 +111,7 @@ fn as_a_group(scene: &Arc<Scene>, present: &Simulation, bond: &Bond) -> Option<S
         input: InputCourse::Ramp,
         body: Body::default(),
         outside: Outside::default(),
+        temperature: BoundaryTemperature::default(),
     });
     let without = Arc::new(without.build().ok()?);
     let cost = |scene: &Arc<Scene>| {

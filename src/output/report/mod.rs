@@ -7,8 +7,10 @@ mod rules;
 mod savings;
 mod stiffness;
 mod trial;
+mod variables;
 
 pub use stiffness::{StiffnessReport, stiffness};
+pub use variables::{Variables, variables};
 
 use crate::base::geometry::lattice::STRAINS;
 use crate::base::words::counted;
@@ -329,10 +331,12 @@ fn cost(simulation: &Simulation, trial: &Trial) -> String {
     if trial.steps == 0 {
         return "unknown".to_owned();
     }
-    let contacts = simulation.contact_count();
-    let share = match contacts {
+    let (contacts, particles) = (simulation.contact_count(), simulation.state().particles.slots().count());
+    // Where there are fewer contacts than particles, these are what costs.
+    let [count, of] = if contacts >= particles { [contacts, 0] } else { [particles, 1] };
+    let share = match count {
         0 => String::new(),
-        contacts => format!(", {:.1} ns for each contact", trial.step * 1e9 / contacts as f64),
+        count => format!(", {:.1} ns for each {}", trial.step * 1e9 / count as f64, ["contact", "particle"][of]),
     };
     format!(
         "{:.3e} s wall for each step{share} (measured over {}; the trial took {:.2} s)",

@@ -94,10 +94,11 @@ fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
     };
     let before = sizes(&state)?;
     let mut random = generator_after(scene.run.seed, "forecast", 0);
+    let declared = vec![0.0; state.particles.declared.len()];
     for number in 0..SAMPLES {
         let [x, y, z, u, v, w] = [(); 6].map(|()| uniform(&mut random));
         let (position, velocity) = (Vector::new(x, y, z).row_with(uniform(&mut random)), [u, v, w, 1.0]);
-        let newcomer = InsertedParticle { position, velocity, inertia: 1.0, material: 0, number };
+        let newcomer = InsertedParticle { position, velocity, inertia: 1.0, material: 0, number, declared: &declared };
         state.add_particle(&newcomer, 0, !state.particles.orientation.is_empty());
     }
     let after = sizes(&state)?;

@@ -121,6 +121,7 @@ impl FacetRows {
         let ([points, gone], [force, traction]) = (self.points, self.loads);
         PointCloud {
             points,
+            cell: Vec::new(),
             kind: Kind::Facets { corners: self.corners, ends: self.ends },
             fields: vec![("displacement", Values::Vectors(gone))],
             cell_fields: vec![

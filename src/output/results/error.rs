@@ -44,6 +44,22 @@ pub enum OutputError {
         /// The file.
         path: PathBuf,
     },
+    /// The folder of the run is gone.
+    #[error("{}: expected the folder that this run writes to, found none or another one: it was moved or deleted meanwhile", folder.display())]
+    Moved {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file of the run was changed by somebody else.
+    #[error("{}: expected the {expected} bytes that this run wrote, found {found}: another process changed it meanwhile", path.display())]
+    Changed {
+        /// The file.
+        path: PathBuf,
+        /// Its length as it was written \[bytes\].
+        expected: u64,
+        /// The length that was found \[bytes\].
+        found: u64,
+    },
     /// A child of the process that writes.
     #[error("{}: the process that opened it writes there; a child that it made by fork does not", folder.display())]
     Forked {
@@ -112,8 +128,8 @@ pub enum ResumeError {
     },
     /// It is of another scene.
     #[error(
-        "{}: is a checkpoint of {scene} at t = {time} s, written by {program}, and that scene differs from this one in text, files, \
-         settings or program; --from takes it along into another scene", path.display(), time = plain(*time))]
+        "{}: is a checkpoint of {scene} at t = {time} s, written by {program}, and that scene differs from this one in {differs}; \
+         --from takes it along into another scene", path.display(), time = plain(*time))]
     OtherScene {
         /// The file.
         path: PathBuf,
@@ -123,6 +139,20 @@ pub enum ResumeError {
         program: String,
         /// Its time \[s\].
         time: f64,
+        /// What differs.
+        differs: String,
+    },
+    /// It is of a run with other inputs.
+    #[error(
+        "{}: is a checkpoint of a run with {}, and this one has {} (--inputs); --from takes it along into another run",
+        path.display(), with_inputs(*found), with_inputs(*expected))]
+    OtherInputs {
+        /// The file.
+        path: PathBuf,
+        /// Digest of the table of its run, if it had one.
+        found: Option<u64>,
+        /// Digest of the table of this run, if it has one.
+        expected: Option<u64>,
     },
     /// A run of this scene never stops at its time.
     #[error(
@@ -179,14 +209,14 @@ pub enum InputsError {
         source: csv::Error,
     },
     /// A column is missing.
-    #[error("{}, line 1: expected a column {expected}, found {}", path.display(), headed(found))]
+    #[error("{}, line 1: expected a column {expected}, found {found}", path.display())]
     Column {
         /// The file.
         path: PathBuf,
         /// What was expected.
         expected: String,
-        /// Its first line.
-        found: Vec<String>,
+        /// Its columns, where its first line is one of names.
+        found: String,
     },
     /// Nothing takes a table.
     #[error("{}: expected a scene with an input, such as a driven boundary, found none: nothing takes the table", path.display())]
@@ -248,12 +278,9 @@ pub enum InputsError {
     },
 }
 
-/// What stands in a first line.
-fn headed(found: &[String]) -> String {
-    match found.iter().all(|name| name.parse::<f64>().is_ok()) {
-        true => "no names but numbers".to_owned(),
-        false => found.join(", "),
-    }
+/// With which table of inputs a run is made.
+fn with_inputs(digest: Option<u64>) -> String {
+    digest.map_or_else(|| "no table of inputs".to_owned(), |digest| format!("the table of inputs {digest:016x}"))
 }
 
 /// The known word that a column most likely stands for, in a message.

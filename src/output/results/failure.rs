@@ -52,10 +52,30 @@ pub enum Refusal {
         /// The file.
         path: PathBuf,
     },
-    /// A folder where a file is to be written.
-    #[error("{}: expected a file or a name that is not there yet, found a folder", path.display())]
+    /// Something else than a file where one is to be written.
+    #[error("{}: expected a file or a name that is not there yet, found {found}", path.display())]
     NotAFile {
+        /// Where.
+        path: PathBuf,
+        /// What is there.
+        found: &'static str,
+    },
+    /// No folder where a file is to be written.
+    #[error("{}: expected a folder that is there, found none", folder.display())]
+    NoFolder {
         /// The folder.
+        folder: PathBuf,
+    },
+    /// Something else stands where a state that is not at rest would be kept.
+    #[error("{}: expected no file, or what an earlier attempt to settle left, found another file; move it away", path.display())]
+    NotUnsettled {
+        /// The file.
+        path: PathBuf,
+    },
+    /// What an earlier attempt to settle left.
+    #[error("{}: holds what an earlier attempt left; --resume goes on with it, --overwrite replaces it", path.display())]
+    Unsettled {
+        /// The file.
         path: PathBuf,
     },
     /// A file that the command reads itself.

@@ -10,7 +10,7 @@ use crate::engine::state::{State, StateFault};
 use crate::scene::Scene;
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
@@ -111,15 +111,40 @@ pub enum EarlierFile {
     Replace,
 }
 
-/// Refuses a file that the command reads itself, and one that is there and is not to be replaced.
+/// Refuses a place where no file can be written, a file that the command reads itself, and one that is there and is not to be replaced.
 pub fn claim_file(path: &Path, earlier: EarlierFile, read: &[PathBuf]) -> Result<(), Refusal> {
     if let Some(own) = read.iter().find(|own| is_same(own, path)) {
         return Err(Refusal::Read { path: path.to_owned(), read: own.clone() });
     }
+    expect_a_file(path)?;
     match fs::symlink_metadata(path) {
-        Ok(about) if about.is_dir() => Err(Refusal::NotAFile { path: path.to_owned() }),
         Ok(_) if earlier == EarlierFile::Keep => Err(Refusal::Exists { path: path.to_owned() }),
         _ => Ok(()),
+    }
+}
+
+/// Refuses a place where no file can be written: a folder, a device or a pipe, also behind a link, and a name in no folder.
+pub(crate) fn expect_a_file(path: &Path) -> Result<(), Refusal> {
+    let not = |found| Err(Refusal::NotAFile { path: path.to_owned(), found });
+    match fs::metadata(path) {
+        Ok(about) if about.is_dir() => return not("a folder"),
+        Ok(about) if !about.is_file() => return not("a device or a pipe"),
+        _ => {}
+    }
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if folder.is_dir() { Ok(()) } else { Err(Refusal::NoFolder { folder: folder.to_owned() }) }
+}
+
+/// Refuses to replace what an earlier attempt to settle left, or what somebody else has put there under its name.
+pub(crate) fn claim_unsettled(path: &Path, earlier: EarlierFile) -> Result<(), Refusal> {
+    expect_a_file(path)?;
+    let Ok(mut file) = File::open(path) else { return Ok(()) };
+    let mut beginning = [0; KIND.len()];
+    let is_own = file.read_exact(&mut beginning).is_ok() && is_checkpoint(&beginning);
+    match earlier {
+        _ if !is_own => Err(Refusal::NotUnsettled { path: path.to_owned() }),
+        EarlierFile::Keep => Err(Refusal::Unsettled { path: path.to_owned() }),
+        EarlierFile::Replace => Ok(()),
     }
 }
 
@@ -171,7 +196,17 @@ pub struct Checkpoint {
 /// Writes a state to a file that is whole at any time: a line that says what it is, the scene as a line of JSON after its
 /// checksum, the state.
 pub fn write_checkpoint(path: &Path, state: &State, scene: &Scene, scene_name: &str) -> Result<(), OutputError> {
-    let description = Description::of(scene, scene_name, state.clock.time);
+    write_run_checkpoint(path, state, (scene, scene_name), None)
+}
+
+/// The same of a run with a table of inputs of this digest.
+pub(crate) fn write_run_checkpoint(
+    path: &Path,
+    state: &State,
+    (scene, scene_name): (&Scene, &str),
+    inputs: Option<u64>,
+) -> Result<(), OutputError> {
+    let description = Description::of(scene, scene_name, state.clock.time).with_inputs(inputs);
     // Plain numbers and strings: writing them to memory has no way to fail.
     let description = serde_json::to_string(&description).unwrap_or_default();
     let checksum = xxh3_64(description.as_bytes());
@@ -209,14 +244,36 @@ impl Checkpoint {
     /// The state, if it is of this very scene.
     pub fn state_of(&self, scene: &Scene) -> Result<State, ResumeError> {
         State::from_bytes(&self.bytes, scene.fingerprint).map_err(|source| match source {
-            SnapshotError::Scene { .. } => ResumeError::OtherScene {
-                path: self.path.clone(),
-                scene: self.scene.scene.clone(),
-                program: self.scene.program.clone(),
-                time: self.scene.time,
-            },
+            SnapshotError::Scene { .. } => self.other_scene(scene),
             source => ResumeError::Snapshot { path: self.path.clone(), source },
         })
+    }
+
+    /// The same, of a run with the table of inputs of this digest.
+    pub(crate) fn state_of_run(&self, scene: &Scene, inputs: Option<u64>) -> Result<State, ResumeError> {
+        let state = self.state_of(scene)?;
+        // What is at rest at time 0 has not seen a table.
+        if self.scene.inputs != inputs && (self.scene.time > 0.0 || self.scene.inputs.is_some()) {
+            let (found, path) = (self.scene.inputs, self.path.clone());
+            return Err(ResumeError::OtherInputs { path, found, expected: inputs });
+        }
+        Ok(state)
+    }
+
+    /// Refuses a scene that goes on in another way than that of the checkpoint.
+    pub(crate) fn expect_course_of(&self, scene: &Scene) -> Result<(), ResumeError> {
+        if self.scene.goes_on_as(scene) { Ok(()) } else { Err(self.other_scene(scene)) }
+    }
+
+    /// It is of another scene.
+    fn other_scene(&self, scene: &Scene) -> ResumeError {
+        ResumeError::OtherScene {
+            path: self.path.clone(),
+            scene: self.scene.scene.clone(),
+            program: self.scene.program.clone(),
+            time: self.scene.time,
+            differs: self.scene.differing_parts(scene),
+        }
     }
 
     /// A scene in this state, which need not be that of the checkpoint.

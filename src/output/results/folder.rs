@@ -1,7 +1,7 @@
 //! The folder of a run's results: which files stand in it, and how they are begun, taken up and added to.
 
 use super::error::{OutputError, ResumeError};
-use super::files::{sync, write_checkpoint};
+use super::files::{sync, write_run_checkpoint};
 use super::frame_files::{Frame, FrameFiles};
 use super::job::{Job, cells};
 use super::replacement::own_results;
@@ -36,6 +36,8 @@ pub(crate) struct Folder {
     scene: Arc<Scene>,
     /// Its file name.
     scene_name: String,
+    /// Digest of the table of inputs, if the run has one.
+    inputs: Option<u64>,
     /// Where it is.
     path: PathBuf,
     /// `history.csv`.
@@ -115,7 +117,7 @@ impl Folder {
     /// Makes the folder ready for the next row, keeping what is kept and nothing else.
     pub(crate) fn open(
         path: &Path,
-        (scene, scene_name): (Arc<Scene>, &str),
+        (scene, scene_name, inputs): (Arc<Scene>, &str, Option<u64>),
         names: &[String],
         kept: &KeptFiles,
     ) -> Result<Self, OutputError> {
@@ -135,6 +137,7 @@ impl Folder {
         Ok(Self {
             scene,
             scene_name: scene_name.to_owned(),
+            inputs,
             path: path.to_owned(),
             history,
             breakage,
@@ -171,7 +174,7 @@ impl Folder {
         for path in self.unsynced.drain(..) {
             sync(&path)?;
         }
-        write_checkpoint(&self.path.join(CHECKPOINT), state, &self.scene, &self.scene_name)
+        write_run_checkpoint(&self.path.join(CHECKPOINT), state, (&self.scene, &self.scene_name), self.inputs)
     }
 
     /// Writes a row for each bond that broke.

@@ -7,7 +7,7 @@ use crate::base::geometry::{Lattice, Quaternion};
 use crate::engine::bodies::loads::{force_on, mass_of};
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
 use crate::engine::state::{CellState, Clumps, Particles};
-use crate::scene::Scene;
+use crate::scene::{ParticleShape, Scene};
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
 pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
@@ -30,7 +30,7 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
         moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
         lies.as_deref().map(cell),
-        rigid.as_deref().map(|rigid| clumps(scene, rigid, lies.as_deref())),
+        rigid.as_deref().map(|rigid| clumps(scene, (&bodies, rigid), lies.as_deref())),
     ]
 }
 
@@ -75,10 +75,20 @@ pub(crate) fn particles(
         let rows = slots().flat_map(|slot| particles.orientation[slot]).collect();
         ("orientation", Values::Quaternions(rows))
     });
+    // A reader must know that masses are not those of spheres.
+    let discs = scene.particles.iter().any(|particle| particle.shape == ParticleShape::Disc);
+    let density = |slot: usize| particles.velocity[slot][3] / ParticleShape::Disc.volume(particles.position[slot][3]);
+    let density = discs.then(|| ("density", Values::Scalars(slots().map(density).collect())));
+    let declared = scene.columns.iter().zip(&particles.declared);
+    let declared = declared
+        .map(|(start, values)| (start.column.name, Values::Scalars(slots().map(|slot| values[slot]).collect())));
     PointCloud {
         points,
+        cell: around(scene, cell),
         fields: fields
             .into_iter()
+            .chain(density)
+            .chain(declared)
             .chain(cell.map(|_| ("unwrapped", Values::Vectors(unwrapped))))
             .chain(sets)
             .chain(clumps)
@@ -109,8 +119,17 @@ fn places(scene: &Scene, particles: &Particles, cell: Option<&CellState>) -> [Ve
     all
 }
 
+/// The cell as rows: its corner, its edges \[m\], and 1 for each along which it repeats; empty where there is none.
+fn around(scene: &Scene, cell: Option<&CellState>) -> Vec<[f64; 3]> {
+    let rows = cell.zip(scene.cell.as_ref()).map(|(lies, cell)| {
+        let [a, b, c] = lies.edges;
+        [lies.origin, a, b, c, cell.lattice.periodic.map(|repeats| f64::from(u8::from(repeats)))]
+    });
+    rows.map_or_else(Vec::new, Vec::from)
+}
+
 /// The clumps: mass centres, and how their own frames are turned.
-fn clumps(scene: &Scene, clumps: &Clumps, cell: Option<&CellState>) -> PointCloud {
+fn clumps(scene: &Scene, (particles, clumps): (&Particles, &Clumps), cell: Option<&CellState>) -> PointCloud {
     let three = |rows: &[[f64; 4]]| rows.iter().flat_map(|[x, y, z, _]| [*x, *y, *z]).collect::<Vec<_>>();
     let turned = |(row, shape): (&[f64; 4], &u32)| {
         let axes = Quaternion::from_row(scene.clump_shapes[*shape as usize].axes);
@@ -124,8 +143,13 @@ fn clumps(scene: &Scene, clumps: &Clumps, cell: Option<&CellState>) -> PointClou
         };
         ("unwrapped", Values::Vectors((0..clumps.len()).flat_map(place).collect()))
     });
+    let material = |clump: usize| {
+        let sphere = clumps.spheres_of(clump)[0];
+        i64::from(particles.material[particles.slot[sphere as usize] as usize])
+    };
     let fields = vec![
         ("clump", numbers(&clumps.number)),
+        ("material", Values::Integers((0..clumps.len()).map(material).collect())),
         ("shape", numbers(&clumps.shape)),
         ("scale", Values::Scalars(clumps.scale.clone())),
         ("mass", Values::Scalars(clumps.velocity.iter().map(|row| row[3]).collect())),
@@ -135,8 +159,13 @@ fn clumps(scene: &Scene, clumps: &Clumps, cell: Option<&CellState>) -> PointClou
         ("force", Values::Vectors(three(&clumps.force))),
         ("moment", Values::Vectors(three(&clumps.moment))),
     ];
-    let fields = fields.into_iter().chain(unwrapped).collect();
-    PointCloud { points: three(&clumps.position), fields, ..PointCloud::default() }
+    let shared = scene.columns.iter().zip(&particles.declared).filter(|(start, _)| start.column.shared.is_some());
+    let shared = shared.map(|(start, values)| {
+        let value = |clump: usize| values[particles.slot[clumps.spheres_of(clump)[0] as usize] as usize];
+        (start.column.name, Values::Scalars((0..clumps.len()).map(value).collect()))
+    });
+    let fields = fields.into_iter().chain(shared).chain(unwrapped).collect();
+    PointCloud { points: three(&clumps.position), cell: around(scene, cell), fields, ..PointCloud::default() }
 }
 
 /// The edges of the cell as lines.
@@ -188,6 +217,7 @@ pub(crate) fn bonds(scene: &Scene, particles: &Particles, bonds: &[BondRecord]) 
     let scalars = |of: fn(&BondRecord) -> f64| Values::Scalars(bonds.iter().map(of).collect());
     PointCloud {
         points: bonds.iter().flat_map(|bond| [bond.position, bond.other]).flatten().collect(),
+        cell: Vec::new(),
         kind: Kind::Lines,
         fields: vec![("id", Values::Integers(ids))],
         cell_fields: vec![

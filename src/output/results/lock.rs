@@ -25,7 +25,7 @@ pub(crate) struct FolderLock {
     /// The process that took it. A child made by `fork` has a copy of this value, but the lock is not its own to give back.
     process: u32,
     /// What keeps it locked.
-    _file: File,
+    file: File,
 }
 
 impl FolderLock {
@@ -67,7 +67,17 @@ impl FolderLock {
             file.set_len(0).and_then(|()| file.rewind()).map_err(failed)?;
             let begun = humantime::format_rfc3339_seconds(SystemTime::now());
             writeln!(file, "{MARK}{}, started {begun}", std::process::id()).map_err(failed)?;
-            return Ok(Self { path, process: std::process::id(), _file: file });
+            return Ok(Self { path, process: std::process::id(), file });
+        }
+    }
+
+    /// Refuses a folder that no longer is the one that was locked.
+    pub(crate) fn expect_in_place(&self) -> Result<(), OutputError> {
+        let folder = self.path.parent().unwrap_or(&self.path);
+        match is_at(&self.file, &self.path) {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(OutputError::Moved { folder: folder.to_owned() }),
+            Err(error) => Err(OutputError::at(folder)(error)),
         }
     }
 

@@ -6,7 +6,7 @@
 use super::error::{OutputError, ResumeError};
 use super::files::is_at;
 use std::fs::{File, OpenOptions};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// The open file.
@@ -14,14 +14,36 @@ pub(crate) struct Table {
     /// Where it is.
     path: PathBuf,
     /// Its end.
-    rows: csv::Writer<File>,
+    rows: csv::Writer<Counted>,
+}
+
+/// A file that knows how long it is to be.
+struct Counted {
+    /// The file, to whose end is written.
+    file: File,
+    /// What was written so far \[bytes\].
+    length: u64,
+}
+
+impl Write for Counted {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.length += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
 }
 
 impl Table {
     /// Begins a file with a row of column names.
     pub(crate) fn create(path: &Path, names: &[String]) -> Result<Self, OutputError> {
-        let file = File::create(path).map_err(OutputError::at(path))?;
-        let mut table = Self { path: path.to_owned(), rows: csv::Writer::from_writer(file) };
+        let file = File::create(path).and_then(|_| OpenOptions::new().append(true).open(path));
+        let file = file.map_err(OutputError::at(path))?;
+        let rows = csv::Writer::from_writer(Counted { file, length: 0 });
+        let mut table = Self { path: path.to_owned(), rows };
         table.add(names)?;
         Ok(table)
     }
@@ -34,19 +56,29 @@ impl Table {
             return Err(OutputError::not_own(path, "a link", "a file of a run"));
         }
         file.set_len(found.bytes).map_err(at(path))?;
-        Ok(Self { path: path.to_owned(), rows: csv::Writer::from_writer(file) })
+        Ok(Self { path: path.to_owned(), rows: csv::Writer::from_writer(Counted { file, length: found.bytes }) })
     }
 
     /// Adds a row and hands it to the system.
     pub(crate) fn add(&mut self, row: &[String]) -> Result<(), OutputError> {
+        self.expect_whole()?;
         let written = self.rows.write_record(row).map_err(io::Error::from).and_then(|()| self.rows.flush());
         written.map_err(OutputError::at(&self.path))
     }
 
+    /// Refuses a file that somebody else has cut short, or has written to.
+    fn expect_whole(&self) -> Result<(), OutputError> {
+        let Counted { file, length: expected } = self.rows.get_ref();
+        let (path, expected) = (self.path.clone(), *expected);
+        let found = file.metadata().map_err(OutputError::at(&self.path))?.len();
+        if found == expected { Ok(()) } else { Err(OutputError::Changed { path, expected, found }) }
+    }
+
     /// Makes sure that all rows are on the disk.
     pub(crate) fn sync(&self) -> Result<(), OutputError> {
-        let file = self.rows.get_ref();
+        let file = &self.rows.get_ref().file;
         file.sync_all().map_err(OutputError::at(&self.path))?;
+        self.expect_whole()?;
         if is_at(file, &self.path).map_err(OutputError::at(&self.path))? {
             Ok(())
         } else {

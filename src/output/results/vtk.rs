@@ -3,6 +3,7 @@
 //! Files are binary, inline and uncompressed: random mantissas hardly
 //! compress, and compressing costs many times the writing.
 
+use crate::scene::import::CELL;
 use cograin_vtk::model::{
     Attribute, Attributes, ByteOrder, CellType, Cells, DataArray, DataSet, IOBuffer, UnstructuredGridPiece, Version,
     VertexNumbers, Vtk,
@@ -50,6 +51,8 @@ pub(crate) enum Kind {
 pub(crate) struct PointCloud {
     /// x, y, z of each point \[m\].
     pub points: Vec<f64>,
+    /// Rows of the field that holds the periodic cell around them; empty where there is none.
+    pub cell: Vec<[f64; 3]>,
     /// What they stand for.
     pub kind: Kind,
     /// The fields of the points by name, in the order of the file.
@@ -77,9 +80,29 @@ impl PointCloud {
             file_path: None,
             data: DataSet::inline(piece),
         };
-        let bytes = cograin_vtk::write(file).map_err(|error| EncodeError(error.to_string()))?;
+        let mut bytes = cograin_vtk::write(file).map_err(|error| EncodeError(error.to_string()))?;
+        add_cell(&mut bytes, &self.cell)?;
         if count == 0 { name_no_points(bytes) } else { Ok(bytes) }
     }
+}
+
+/// Adds the field of the periodic cell, which the library cannot write: digits give every bit back.
+fn add_cell(bytes: &mut Vec<u8>, cell: &[[f64; 3]]) -> Result<(), EncodeError> {
+    if cell.is_empty() {
+        return Ok(());
+    }
+    let tag = b"<UnstructuredGrid>";
+    let place = bytes.windows(tag.len()).position(|window| window == tag).map(|place| place + tag.len());
+    let place = place.ok_or_else(|| EncodeError("no grid in the file".to_owned()))?;
+    let numbers: Vec<String> = cell.as_flattened().iter().map(|number| format!("{number:?}")).collect();
+    let field = format!(
+        "<FieldData><DataArray type=\"Float64\" Name=\"{CELL}\" NumberOfComponents=\"3\" NumberOfTuples=\"{}\" \
+         format=\"ascii\">{}</DataArray></FieldData>",
+        cell.len(),
+        numbers.join(" ")
+    );
+    bytes.splice(place..place, field.into_bytes());
+    Ok(())
 }
 
 /// A cell for each point, line or facet. Without points a single cell of no points: meshio refuses a file without cells.

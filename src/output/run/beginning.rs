@@ -41,6 +41,8 @@ pub(super) struct First<'a> {
     pub(super) schedule: &'a Schedule,
     /// Columns of the history.
     pub(super) names: &'a [String],
+    /// Digest of the table of inputs, if there is one.
+    pub(super) inputs: Option<u64>,
 }
 
 impl First<'_> {
@@ -51,7 +53,7 @@ impl First<'_> {
         let frames = self.schedule.frames_until(time);
         let frame_is_due = origin != Origin::Elsewhere && frames.last() == Some(&time);
         let kept = KeptFiles::nothing(frames.len() - usize::from(frame_is_due));
-        let named = (Arc::clone(self.order.scene), self.order.scene_name);
+        let named = (Arc::clone(self.order.scene), self.order.scene_name, self.inputs);
         let mut folder = Folder::open(&new, named, self.names, &kept)?;
         if matches!(origin, Origin::Anew | Origin::TakenOver { goes_on: false }) {
             folder.write(Job::Breaks(simulation.state().breaks.clone()))?;
@@ -70,8 +72,8 @@ impl First<'_> {
 
 /// Locks the folder of the results, which is made if it is not there, and ends what another run may have left half done there.
 pub(super) fn lock(path: &Path) -> Result<FolderLock, Failure> {
-    if path.exists() && !path.is_dir() {
-        return Err(Refusal::NotAFolder { folder: path.to_owned() }.into());
+    if let Some(there) = path.ancestors().find(|part| part.exists()).filter(|there| !there.is_dir()) {
+        return Err(Refusal::NotAFolder { folder: there.to_owned() }.into());
     }
     fs::create_dir_all(path).map_err(OutputError::at(path))?;
     let lock = FolderLock::take(path)?;

@@ -1,10 +1,12 @@
 //! Inputs of a run over time, from a table such as a master leaves.
 
+use crate::base::document::told_columns;
 use crate::base::files;
 use crate::engine::simulation::Simulation;
 use crate::interface::{Interface, Quantity, Value};
 use crate::output::results::InputsError;
 use std::path::{Path, PathBuf};
+use xxhash_rust::xxh3::xxh3_64;
 
 /// Two times closer than this part of the later one are one.
 const SAME: f64 = 1e-9;
@@ -13,6 +15,8 @@ const SAME: f64 = 1e-9;
 /// values on or from those in a row for time 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Inputs {
+    /// Digest of the table's bytes: a run that goes on must have the same.
+    pub(super) digest: u64,
     /// Times, ascending, from 0 \[s\].
     times: Vec<f64>,
     /// What the table has.
@@ -40,14 +44,21 @@ impl Inputs {
         let bytes = files::read(path).map_err(|error| unreadable(error.into()))?;
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(&*bytes);
         let names = reader.headers().map_err(unreadable)?.clone();
+        let digest = xxh3_64(&bytes);
         if interface.inputs().next().is_none() {
             return Err(InputsError::NoInput { path: path.to_owned() });
         }
+        let found: Vec<String> = names.iter().map(str::to_owned).collect();
+        let known = found.len() == 1 && interface.find(&found[0]).is_some();
+        let told = told_columns(&found).or_else(|| known.then(|| found[0].clone()));
         let missing = |expected| {
-            let found = names.iter().map(str::to_owned).collect();
+            let found = told.clone().unwrap_or_else(|| "a first line without names of columns".to_owned());
             InputsError::Column { path: path.to_owned(), expected, found }
         };
         let time = names.iter().position(|name| name == "time").ok_or_else(|| missing("time".to_owned()))?;
+        if names.len() > 1 && told.is_none() {
+            return Err(missing("time".to_owned()));
+        }
         for (place, name) in names.iter().enumerate() {
             let column = || name.to_owned();
             if name != "time" && !interface.variables().iter().any(|variable| variable.name == name) {
@@ -67,8 +78,11 @@ impl Inputs {
             let known: Vec<String> = interface.inputs().map(|(_, variable)| variable.name.clone()).collect();
             return Err(missing(known.join(" or ")));
         }
-        let mut table =
-            Self { times: vec![0.0], columns: chosen.iter().map(|(_, index)| Column::of(interface, *index)).collect() };
+        let mut table = Self {
+            digest,
+            times: vec![0.0],
+            columns: chosen.iter().map(|(_, index)| Column::of(interface, *index)).collect(),
+        };
         for record in reader.records() {
             let record = record.map_err(unreadable)?;
             let line = record.position().map_or(0, csv::Position::line);

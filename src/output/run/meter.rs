@@ -25,8 +25,13 @@ impl Default for Pace {
 impl Pace {
     /// Makes a part of a communication step. Returns whether its end is reached.
     pub(super) fn part(&mut self, simulation: &mut Simulation, interval: f64) -> Result<bool, RunError> {
+        self.part_of(simulation, interval, u64::MAX)
+    }
+
+    /// The same of so many time steps at most.
+    pub(super) fn part_of(&mut self, simulation: &mut Simulation, interval: f64, most: u64) -> Result<bool, RunError> {
         let (begun, before) = (Instant::now(), simulation.state().clock.steps);
-        let result = simulation.advance_part(interval, self.most);
+        let result = simulation.advance_part(interval, self.most.min(most));
         let made = simulation.state().clock.steps - before;
         let fitting = PART.as_secs_f64() / begun.elapsed().as_secs_f64().max(1e-9) * made as f64;
         self.most = (fitting as u64).clamp(1, FASTER * self.most);

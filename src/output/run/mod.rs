@@ -20,7 +20,7 @@ pub use summary::Summary;
 use crate::engine::simulation::{RunError, Simulation};
 use crate::interface::{Interface, Variable};
 use crate::output::results::SUMMARY;
-use crate::output::results::files::{Checkpoint, Durability, read_checkpoint, write_whole};
+use crate::output::results::files::{Checkpoint, Durability, write_whole};
 use crate::output::results::folder::{Folder, KeptFiles, Place};
 use crate::output::results::job::Job;
 use crate::output::results::lock::FolderLock;
@@ -88,7 +88,7 @@ struct Session<'a> {
     /// What could not be taken over from another scene, in words.
     left_behind: Vec<String>,
     /// The lock that keeps other runs out of the folder.
-    _lock: FolderLock,
+    lock: FolderLock,
 }
 
 impl<'a> Session<'a> {
@@ -99,6 +99,7 @@ impl<'a> Session<'a> {
         let chosen = interface.check_names(order.scene);
         chosen.map_err(|source| Refusal::Chosen { scene: scene_name(), source: Box::new(source) })?;
         let inputs = order.inputs.map(|path| Inputs::read(path, &interface)).transpose().map_err(Refusal::from)?;
+        let digest = inputs.as_ref().map(|inputs| inputs.digest);
         let told = inputs.as_ref().map(Inputs::end).into_iter().chain(order.scene.run.end).reduce(f64::min);
         let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
         let schedule = Schedule::new(order.scene, order.scene_name, end)?;
@@ -118,7 +119,7 @@ impl<'a> Session<'a> {
                 (taken.simulation, time, if time > 0.0 { Origin::TakenOver { goes_on } } else { Origin::Anew })
             }
             Some((path, origin)) => {
-                let state = read_checkpoint(&path, order.scene)?;
+                let state = Checkpoint::read(&path)?.state_of_run(order.scene, digest)?;
                 let (saved, underway) = (state.clock.time, state.underway);
                 let point = underway.map_or(saved, |underway| saved - underway.elapsed());
                 let time = schedule.point_of(point).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
@@ -138,12 +139,14 @@ impl<'a> Session<'a> {
         let outputs = interface.recorded().map(|(_, variable)| variable.name.clone());
         let names: Vec<_> = std::iter::once("time".to_owned()).chain(outputs).collect();
         if origin != Origin::Here {
-            let first = First { order: &order, interface: &interface, schedule: &schedule, names: &names };
+            let first =
+                First { order: &order, interface: &interface, schedule: &schedule, names: &names, inputs: digest };
             first.write(&simulation, time, origin)?;
         }
         let place = Place { names: &names, schedule: &schedule, time, state: simulation.state() };
         let kept = KeptFiles::look(order.folder, &place)?;
-        let folder = Folder::open(order.folder, (Arc::clone(order.scene), order.scene_name), &names, &kept)?;
+        let named = (Arc::clone(order.scene), order.scene_name, digest);
+        let folder = Folder::open(order.folder, named, &names, &kept)?;
         let folder = Arc::new(Mutex::new(folder));
         let writer = Writer::start(Arc::clone(&folder))?;
         let momentum = momentum::Start::of(&simulation);
@@ -165,7 +168,7 @@ impl<'a> Session<'a> {
             meter,
             last_checkpoint: Instant::now(),
             left_behind,
-            _lock: lock,
+            lock,
         })
     }
 
@@ -275,6 +278,10 @@ impl<'a> Session<'a> {
         });
         if let Err(failure) = &result {
             summary.end_with(failure);
+        }
+        // Another folder that has taken this one's name does not get the summary.
+        if let Err(moved) = self.lock.expect_in_place() {
+            return Err(result.err().unwrap_or(moved.into()));
         }
         let path = self.order.folder.join(SUMMARY);
         let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);

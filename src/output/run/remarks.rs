@@ -2,6 +2,7 @@
 
 use crate::base::geometry::lattice::STRAINS;
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
+use crate::engine::state::Clock;
 use crate::interface::{Interface, MOST_COLUMNS};
 use crate::laws::contact::{Material, MaterialPair, PairProperties};
 use crate::scene::exchange::Amount;
@@ -67,13 +68,19 @@ fn time_step(scene: &Scene, simulation: &Simulation) -> Option<String> {
             "[run] allow_unstable: nothing stops this run when its time step, {step:e} s, is above the stable one{found}; its numbers are worth nothing then"
         ));
     }
+    let Clock { divided, steps, .. } = simulation.state().clock;
+    if divided > 0 {
+        return Some(format!(
+            "[run] step: {divided} of {steps} time steps were made shorter than {step:e} s, as the stable one fell below that ({stable:.3e} s as last found)"
+        ));
+    }
     (step > NEAR_THE_BOUND * stable).then(|| {
         format!("[run] step: {step:e} s is {:.2} of the computed stable step, {stable:.3e} s; accuracy suffers well before stability", step / stable)
     })
 }
 
 /// On servos that press with another force than they are to, as a mean over the last interval.
-fn missed(scene: &Scene, simulation: &Simulation) -> Vec<String> {
+pub(super) fn missed(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let mut missed = Vec::new();
     let largest = largest(simulation.state().boundaries.iter().flat_map(|moved| moved.mean_force));
     for (boundary, moved) in scene.boundaries.iter().zip(&simulation.state().boundaries) {
@@ -294,7 +301,8 @@ fn idle(scene: &Scene) -> Vec<String> {
                     let b = if partner == index { own } else { &scene.materials[partner] };
                     let pair = MaterialPair { a: own, b, properties: &scene.pairs[entry] };
                     let laws = scene.contacts.iter().filter(|law| law.between[entry]);
-                    laws.map(|law| law.choice.coefficients(&pair).ok()).collect::<Vec<_>>()
+                    let read = |law: &ContactLaw| (law.choice.coefficients(&pair).ok(), law.heat_between(&pair));
+                    laws.map(read).collect::<Vec<_>>()
                 };
                 with(other) != with(material)
             })

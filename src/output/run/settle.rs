@@ -1,11 +1,12 @@
 //! A scene brought to rest, as a start for others.
 
 use super::meter::Pace;
+use super::remarks::missed;
 use crate::base::words::{counted, plain};
 use crate::engine::simulation::{ContactRecord, Description, Simulation};
 use crate::engine::statics::{Factorise, Motionless, come_to_rest};
 use crate::laws::contact::PairProperties;
-use crate::output::results::files::{Checkpoint, write_checkpoint};
+use crate::output::results::files::{Checkpoint, EarlierFile, claim_unsettled, is_same, write_checkpoint};
 use crate::output::results::{Failure, OutputError, Refusal};
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, SceneDraft};
 use std::collections::VecDeque;
@@ -59,6 +60,8 @@ pub struct SettleOrder<'a> {
     pub start: SettleStart<'a>,
     /// The file that gets the state.
     pub checkpoint: &'a Path,
+    /// What happens to the state that an earlier attempt left beside it, where this one comes to no rest either.
+    pub earlier: EarlierFile,
     /// Time steps after which the attempt is given up.
     pub most_steps: u64,
     /// What finds the factors for Newton's method; without it time steps are made.
@@ -139,11 +142,17 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         SettleStart::From(path) => Some(path),
         SettleStart::Unsettled => Some(unsettled.as_path()),
     };
+    let goes_on = from.is_some_and(|from| is_same(from, &unsettled));
+    claim_unsettled(&unsettled, if goes_on { EarlierFile::Replace } else { order.earlier })?;
     let (mut simulation, left_behind) = match from {
         None => (Simulation::new(Arc::clone(&still)).map_err(refused)?, Vec::new()),
         Some(path) => {
             let not = |error| Refusal::not_taken_over(order.scene_name, error);
-            let taken = Checkpoint::read(path)?.taken_over(&still).map_err(not)?;
+            let checkpoint = Checkpoint::read(path)?;
+            if order.start == SettleStart::Unsettled {
+                checkpoint.expect_course_of(order.scene)?;
+            }
+            let taken = checkpoint.taken_over(&still).map_err(not)?;
             (taken.simulation, taken.left_behind)
         }
     };
@@ -224,7 +233,9 @@ fn settle_down(
         let ratio = looks.iter().copied().fold(0.0, f64::max);
         let steps = clock.steps - before;
         watch(SettleProgress { steps, ratio, tolerance });
-        if ratio < tolerance {
+        let balanced = ratio < tolerance;
+        let served = if balanced { missed(simulation.scene(), simulation) } else { Vec::new() };
+        if balanced && served.is_empty() {
             return Ok(ratio);
         }
         let latest = looks.back().copied().unwrap_or(ratio);
@@ -235,10 +246,14 @@ fn settle_down(
                 time: simulation.time(),
                 ratio: latest,
                 tolerance,
-                why: format!("{}{}", course.left_to_go(latest, tolerance), why_not(simulation)),
+                why: match served.first() {
+                    Some(missed) => missed.clone(),
+                    None => format!("{}{}", course.left_to_go(latest, tolerance), why_not(simulation)),
+                },
             });
         }
-        if let Some(best) = course.stalled(ratio, simulation) {
+        // What a servo still presses on is at rest and does not stay so.
+        if let Some(best) = course.stalled(ratio, simulation).filter(|_| !balanced) {
             let why = why_not(simulation);
             return Err(Failure::Restless {
                 kept: kept(order.checkpoint),
@@ -251,8 +266,11 @@ fn settle_down(
         }
         let left = order.most_steps - steps;
         let count = f64::from(u32::try_from(left).unwrap_or(u32::MAX).min(STEPS_BETWEEN_LOOKS));
-        while !pace.part(simulation, count * clock.step)? && !order.stop.load(Ordering::Relaxed) {
+        // The step may become shorter on the way: the steps are counted, not the time.
+        let mut left = left;
+        while left > 0 && !pace.part_of(simulation, count * clock.step, left)? && !order.stop.load(Ordering::Relaxed) {
             let steps = simulation.state().clock.steps - before;
+            left = order.most_steps.saturating_sub(steps);
             watch(SettleProgress { steps, ratio, tolerance });
         }
         if order.stop.load(Ordering::Relaxed) {
@@ -425,11 +443,11 @@ fn unbalanced_force(simulation: &mut Simulation) -> f64 {
     if nothing_moves { 0.0 } else { simulation.undamped_unbalanced_force() }
 }
 
-/// The scene with boundaries that stand still but for their free axes, insertions without a rate, and without books to keep.
+/// The scene with boundaries that stand still but for their free axes and servos, insertions without a rate, and without books to keep.
 fn standing_still(scene: &Scene) -> Arc<Scene> {
     let mut still = SceneDraft::clone(scene);
     for boundary in &mut still.boundaries {
-        for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free()) {
+        for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free() && axis.servo().is_none()) {
             *axis = AxisMotion::Fixed;
         }
     }

@@ -274,7 +274,10 @@ impl std::fmt::Display for Summary {
             (self.ns_per_bond_and_step, "bond"),
             (self.ns_per_particle_and_step, "particle"),
         ];
-        if let Some((cost, of)) = costs.into_iter().find_map(|(cost, of)| Some((cost?, of))) {
+        // Where there are fewer contacts and bonds than particles, these are what costs.
+        let most = self.ns_per_particle_and_step.unwrap_or(f64::INFINITY);
+        let told = costs.into_iter().find_map(|(cost, of)| Some((cost.filter(|cost| *cost <= most)?, of)));
+        if let Some((cost, of)) = told {
             write!(formatter, ", {cost:.1} ns per {of} and step")?;
         }
         write!(formatter, ", {}", counted(self.threads, "thread"))?;

@@ -9,6 +9,7 @@ use crate::scene::clump::OrientationKey;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// The key that is wrong, and why.
@@ -31,11 +32,11 @@ pub enum Outside {
 /// How much comes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Amount {
-    /// So much in each second \[kg/s\].
+    /// Mass in each second \[kg/s\].
     MassRate(f64),
-    /// So many in each second \[1/s\].
+    /// Number in each second \[1/s\].
     CountRate(f64),
-    /// So much in all, as soon as there is room \[kg\].
+    /// Mass in all, as soon as there is room \[kg\].
     Mass(f64),
 }
 
@@ -43,6 +44,9 @@ pub enum Amount {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct InsertionKeys {
+    /// What it says of declared columns, each read by its name.
+    #[serde(skip)]
+    pub(crate) columns: BTreeMap<&'static str, f64>,
     /// Name of the region in which all that comes lies whole.
     pub(crate) region: String,
     /// Name of the material; absent: that which the clumps name.
@@ -100,7 +104,7 @@ pub(crate) struct OutletKeys {
 pub(crate) enum BeyondKeys {
     /// The far side of the boundary of this name.
     Boundary(String),
-    /// That of a plane.
+    /// The far side of a plane.
     Plane(PlaneKeys),
 }
 

@@ -1,6 +1,6 @@
 //! Particles from comma-separated columns: a line of names, then a line for each particle.
 
-use super::{FileFault, NEEDED, POSSIBLE, REPORTED, Request, Rows, needed, twice};
+use super::{FileFault, REPORTED, Request, Rows, twice};
 use crate::base::document::Mistake;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 
@@ -19,11 +19,17 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
     let headers = reader.headers().map_err(|error| vec![unreadable(&error)])?;
     let headers: Vec<String> = headers.iter().map(str::to_owned).collect();
-    needed(&headers, Some(1))?;
+    request.needed(&headers, Some(1))?;
     let mut names = Vec::new();
-    let uses = uses(&headers, request.extra, &mut names)?;
+    let uses = uses(&headers, request, &mut names)?;
     let label_column = headers.iter().find(|header| matches!(header.as_str(), "material" | "type"));
-    let mut rows = Rows { label_column: label_column.cloned().unwrap_or_default(), ..Rows::default() };
+    let left_out =
+        headers.iter().zip(&uses).filter(|(header, purpose)| matches!(purpose, Use::Nothing) && request.misses(header));
+    let mut rows = Rows {
+        label_column: label_column.cloned().unwrap_or_default(),
+        left_out: left_out.map(|(header, _)| header.clone()).collect(),
+        ..Rows::default()
+    };
     let mut columns = vec![Vec::new(); names.len()];
     let mut faults = Vec::new();
     let mut record = ByteRecord::new();
@@ -59,7 +65,7 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
 }
 
 /// What each column is read for; `names` gets those of the numbers.
-fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result<Vec<Use>, Vec<FileFault>> {
+fn uses(headers: &[String], request: &Request, names: &mut Vec<String>) -> Result<Vec<Use>, Vec<FileFault>> {
     let mut uses = Vec::new();
     let mut labelled = false;
     for (place, header) in headers.iter().enumerate() {
@@ -70,14 +76,13 @@ fn uses(headers: &[String], extra: &[String], names: &mut Vec<String>) -> Result
             };
             return Err(vec![FileFault::at(1, "", mistake)]);
         }
-        let wanted = [&NEEDED[..], &POSSIBLE].concat().contains(&header.as_str()) || extra.contains(header);
         uses.push(match header.as_str() {
             "material" | "type" if labelled => return Err(twice(["material", "type"], Some(1))),
             "material" | "type" => {
                 labelled = true;
                 Use::Label
             }
-            _ if wanted => {
+            _ if request.reads(header) => {
                 names.push(header.clone());
                 Use::Number(names.len() - 1)
             }

@@ -15,7 +15,10 @@ const STYLES: [(&str, &[&str]); 3] = [
 const VELOCITIES: [&str; 7] = ["id", "vx", "vy", "vz", "wx", "wy", "wz"];
 
 /// Columns that particles get from the file, beside their type.
-const NAMES: [&str; 12] = ["id", "diameter", "density", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"];
+const NAMES: [&str; 13] = ["id", "molecule", "diameter", "density", "x", "y", "z", "vx", "vy", "vz", "wx", "wy", "wz"];
+
+/// Last words of lines that say something of the box.
+const OF_A_BOX: [&str; 8] = ["xhi", "yhi", "zhi", "yz", "avec", "bvec", "cvec", "origin"];
 
 /// What has been read so far.
 #[derive(Default)]
@@ -31,7 +34,7 @@ struct Reader {
     /// Lower and upper bounds of the box along each axis.
     bounds: [Option<[f64; 2]>; 3],
     /// The tilts xy, xz, yz.
-    tilts: [f64; 3],
+    tilts: Option<[f64; 3]>,
     /// Edges written as vectors, and the corner.
     vectors: [Option<[f64; 3]>; 4],
     /// The last line that says something of the box.
@@ -67,7 +70,12 @@ pub(crate) fn read(text: &str, _request: &Request) -> Result<(Rows, Option<Strin
             "" => reader.head(number, content)?,
             "Atoms" => reader.atom(number, content, section.1)?,
             "Velocities" => velocities.push((number, content)),
-            _ => {}
+            other => {
+                let name = format!("section {other}");
+                if !reader.rows.left_out.contains(&name) {
+                    reader.rows.left_out.push(name);
+                }
+            }
         }
         if reader.faults.len() >= REPORTED {
             break;
@@ -92,34 +100,51 @@ impl Reader {
             [count, "ellipsoids" | "bodies" | "lines" | "triangles"] if count != "0" => {
                 return Err(non_spherical(number));
             }
-            [low, high, "xlo" | "ylo" | "zlo", "xhi" | "yhi" | "zhi"] => {
-                let axis = ["xlo", "ylo", "zlo"].iter().position(|name| *name == words[2]).unwrap_or(0);
-                self.bounds[axis] = Some(bounds([low, high], number)?);
-                self.box_line = number;
-            }
-            [x, y, z, "xy", "xz", "yz"] => {
-                self.tilts = bounds([x, y, z], number)?;
-                self.box_line = number;
-            }
-            [x, y, z, "avec" | "bvec" | "cvec"] | [x, y, z, "abc", "origin"] => {
-                let place = ["avec", "bvec", "cvec"].iter().position(|name| *name == words[3]).unwrap_or(3);
-                self.vectors[place] = Some(bounds([x, y, z], number)?);
-                self.box_line = number;
+            [low, high, "xlo", "xhi"] => self.bounds[0] = Some(self.of_box([low, high], number)?),
+            [low, high, "ylo", "yhi"] => self.bounds[1] = Some(self.of_box([low, high], number)?),
+            [low, high, "zlo", "zhi"] => self.bounds[2] = Some(self.of_box([low, high], number)?),
+            [x, y, z, "xy", "xz", "yz"] => self.tilts = Some(self.of_box([x, y, z], number)?),
+            [x, y, z, "avec"] => self.vectors[0] = Some(self.of_box([x, y, z], number)?),
+            [x, y, z, "bvec"] => self.vectors[1] = Some(self.of_box([x, y, z], number)?),
+            [x, y, z, "cvec"] => self.vectors[2] = Some(self.of_box([x, y, z], number)?),
+            [x, y, z, "abc", "origin"] => self.vectors[3] = Some(self.of_box([x, y, z], number)?),
+            [.., name] if OF_A_BOX.contains(&name) => {
+                let (found, expected) = (format!("{content:?}"), "a line of a box: 0 1 xlo xhi, or 0 0 0 xy xz yz");
+                let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
+                return Err(vec![FileFault::at(number, "", mistake)]);
             }
             _ => {}
         }
         Ok(())
     }
 
-    /// The box, if the head says all of it.
-    fn around(&self) -> Option<Bounds> {
-        if let [Some(a), Some(b), Some(c), Some(low)] = self.vectors {
-            return Some(Bounds { low, edges: [a, b, c] });
+    /// Numbers of a line that says something of the box.
+    fn of_box<const N: usize>(&mut self, words: [&str; N], line: usize) -> Result<[f64; N], Vec<FileFault>> {
+        self.box_line = line;
+        bounds(words, line)
+    }
+
+    /// The box, if the head says one; a part of one is refused.
+    fn around(&self) -> Result<Option<Bounds>, Vec<FileFault>> {
+        let (bounded, tilted) = (self.bounds.iter().any(Option::is_some), self.tilts.is_some());
+        match (self.vectors, self.bounds) {
+            ([None, None, None, None], [None, None, None]) if !tilted => Ok(None),
+            ([Some(a), Some(b), Some(c), Some(low)], [None, None, None]) if !tilted => {
+                Ok(Some(Bounds { low, edges: [a, b, c] }))
+            }
+            ([None, None, None, None], [Some(x), Some(y), Some(z)]) => {
+                let [xy, xz, yz] = self.tilts.unwrap_or_default();
+                let edges = [[x[1] - x[0], 0.0, 0.0], [xy, y[1] - y[0], 0.0], [xz, yz, z[1] - z[0]]];
+                Ok(Some(Bounds { low: [x[0], y[0], z[0]], edges }))
+            }
+            _ => {
+                let general = self.vectors.iter().any(Option::is_some);
+                let found = if general && (bounded || tilted) { "parts of two boxes" } else { "a part of a box" };
+                let expected = "all of xlo xhi, ylo yhi, zlo zhi, or all of avec, bvec, cvec, abc origin".to_owned();
+                let mistake = Mistake::Unexpected { found: found.to_owned(), expected };
+                Err(vec![FileFault::at(self.box_line, "", mistake)])
+            }
         }
-        let [Some(x), Some(y), Some(z)] = self.bounds else { return None };
-        let [xy, xz, yz] = self.tilts;
-        let edges = [[x[1] - x[0], 0.0, 0.0], [xy, y[1] - y[0], 0.0], [xz, yz, z[1] - z[0]]];
-        Some(Bounds { low: [x[0], y[0], z[0]], edges })
     }
 
     /// A line of the section Atoms.
@@ -158,7 +183,6 @@ impl Reader {
         for (word, column) in words.iter().zip(*columns) {
             match *column {
                 "type" => self.rows.push_label(word),
-                "molecule" => {}
                 column => self.number(number, column, word),
             }
         }
@@ -223,7 +247,7 @@ impl Reader {
         if !self.faults.is_empty() {
             return Err(self.faults);
         }
-        let bounds = self.around();
+        let bounds = self.around()?;
         let mut rows = Rows { count, label_column: "type".to_owned(), ..self.rows };
         if let Some(line) = self.crossed_at {
             let Some(bounds) = bounds else {
@@ -232,14 +256,15 @@ impl Reader {
                 let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
                 return Err(vec![FileFault { line: Some(line), column: String::new(), mistake }]);
             };
-            let lattice = bounds.lattice(self.box_line)?;
+            let lattice = bounds.lattice(Some(self.box_line))?;
             for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
                 let places = self.columns.entry(name).or_default().iter_mut();
                 places.zip(&self.crossed).for_each(|(place, count)| *place += lattice.displacement(*count)[axis]);
             }
-            rows.around = Some(FileBox { lattice, is_told: false, line, is_crossed: true });
-        } else if let Some(lattice) = bounds.and_then(|bounds| bounds.lattice(self.box_line).ok()) {
-            rows.around = Some(FileBox { lattice, is_told: false, line: self.box_line, is_crossed: false });
+            rows.around = Some(FileBox { lattice, is_told: false, line: Some(line), is_crossed: true });
+        } else if let Some(bounds) = bounds {
+            let line = Some(self.box_line);
+            rows.around = Some(FileBox { lattice: bounds.lattice(line)?, is_told: false, line, is_crossed: false });
         }
         for name in NAMES {
             if let Some(column) = self.columns.remove(name) {

@@ -1,9 +1,6 @@
 //! Dump files of LIGGGHTS and LAMMPS in text form: one or more snapshots of named columns.
 
-use super::{
-    Bounds, DIGITS, FileBox, FileFault, POSSIBLE, REPORTED, Request, Rows, agree, crossed, largest, needed,
-    non_spherical,
-};
+use super::{Bounds, DIGITS, FileBox, FileFault, REPORTED, Request, Rows, crossed, largest, non_spherical};
 use crate::base::document::Mistake;
 use crate::base::geometry::Lattice;
 
@@ -91,7 +88,7 @@ fn snapshots(text: &str) -> (Vec<Snapshot<'_>>, Option<String>) {
 const LABELS: [&str; 3] = ["type", "typelabel", "element"];
 
 /// The name here of a column there; `None` for one that is not read as a number.
-fn known<'a>(column: &'a str, extra: &[String]) -> Option<&'a str> {
+fn known<'a>(column: &'a str, request: &Request) -> Option<&'a str> {
     match column {
         "xu" | "xs" | "xsu" => Some("x"),
         "yu" | "ys" | "ysu" => Some("y"),
@@ -99,9 +96,8 @@ fn known<'a>(column: &'a str, extra: &[String]) -> Option<&'a str> {
         "omegax" => Some("wx"),
         "omegay" => Some("wy"),
         "omegaz" => Some("wz"),
-        "x" | "y" | "z" | "radius" | "diameter" | "mass" | "ix" | "iy" | "iz" => Some(column),
-        _ if POSSIBLE.contains(&column) || extra.iter().any(|name| name == column) => Some(column),
-        _ => None,
+        "diameter" | "ix" | "iy" | "iz" => Some(column),
+        _ => request.reads(column).then_some(column),
     }
 }
 
@@ -123,7 +119,7 @@ impl Snapshot<'_> {
     fn read(&self, request: &Request) -> Result<Rows, Vec<FileFault>> {
         let (line, columns) = self.columns;
         let columns: Vec<&str> = columns.split_whitespace().collect();
-        if columns.iter().any(|column| ["shapex", "quatw", "blockiness1", "id_multisphere"].contains(column)) {
+        if columns.iter().any(|column| ["shapex", "quatw", "blockiness1"].contains(column)) {
             return Err(non_spherical(line));
         }
         if self.announced != Some(self.atoms.len()) {
@@ -138,18 +134,23 @@ impl Snapshot<'_> {
                 mistake: Mistake::Unexpected { found, expected },
             }]);
         }
-        let names: Vec<Option<&str>> = columns.iter().map(|column| known(column, request.extra)).collect();
+        let names: Vec<Option<&str>> = columns.iter().map(|column| known(column, request)).collect();
         let mut present: Vec<String> = names.iter().flatten().map(|name| (*name).to_owned()).collect();
         if present.iter().any(|name| name == "diameter") {
             present.push("radius".to_owned());
         }
         let line = Some(line).filter(|line| *line > 0).or(self.last);
-        needed(&present, line).map_err(|missing| found_columns(missing, &columns))?;
+        request.needed(&present, line).map_err(|missing| found_columns(missing, &columns))?;
+        let left_out = columns
+            .iter()
+            .zip(&names)
+            .filter(|(column, name)| name.is_none() && !LABELS.contains(*column) && request.misses(column));
         let label = LABELS.into_iter().find(|label| columns.contains(label));
         let mut rows = Rows {
             count: self.atoms.len(),
             label_column: label.unwrap_or_default().to_owned(),
             lines: self.atoms.iter().map(|(line, _)| *line as u32).collect(),
+            left_out: left_out.map(|(column, _)| (*column).to_owned()).collect(),
             ..Rows::default()
         };
         let mut numbers = self.numbers(&columns, &names, &mut rows)?;
@@ -174,7 +175,6 @@ impl Snapshot<'_> {
                 }
             }
         }
-        density_of_mass(&mut rows)?;
         rows.expect_labels()?;
         Ok(rows)
     }
@@ -252,9 +252,9 @@ impl Snapshot<'_> {
             let (found, expected) = ("no bounds of the box".to_owned(), "a lower and an upper one".to_owned());
             return Err(vec![FileFault::at(line, "", Mistake::Unexpected { found, expected })]);
         };
-        let lattice = Bounds { low, edges }.lattice(line)?;
+        let lattice = Bounds { low, edges }.lattice(Some(line))?;
         let lattice = Lattice { periodic: [x, y, z], ..lattice };
-        Ok(Some(FileBox { lattice, is_told: true, line, is_crossed: false }))
+        Ok(Some(FileBox { lattice, is_told: true, line: Some(line), is_crossed: false }))
     }
 
     /// From places in the box to those where atoms are that crossed its faces. Returns whether the file says which did.
@@ -408,20 +408,4 @@ fn found_columns(missing: Vec<FileFault>, columns: &[&str]) -> Vec<FileFault> {
         mistake => FileFault { mistake, ..fault },
     };
     missing.into_iter().map(renamed).collect()
-}
-
-/// Density of full spheres, where the file has masses; if it has both, they agree.
-fn density_of_mass(rows: &mut Rows) -> Result<(), Vec<FileFault>> {
-    let Some(mass) = rows.columns.remove("mass") else { return Ok(()) };
-    let Some(radius) = rows.columns.get("radius") else { return Ok(()) };
-    let volume = |radius: &f64| 4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius;
-    let density: Vec<f64> = mass.iter().zip(radius).map(|(mass, radius)| mass / volume(radius)).collect();
-    match rows.columns.get("density") {
-        // The radius counts three times.
-        Some(stated) => agree(stated, &density, 4.0 * DIGITS * largest(stated), ["density", "mass"], &rows.lines),
-        None => {
-            rows.insert("density", density);
-            Ok(())
-        }
-    }
 }

@@ -14,6 +14,9 @@ pub(crate) enum Format {
     Data,
     /// Dump file of LIGGGHTS or LAMMPS.
     Dump,
+    /// The spheres of one body, as LIGGGHTS reads them: known by the name of the file alone.
+    #[serde(skip)]
+    Multisphere,
 }
 
 /// Units of particle files, by the names that LIGGGHTS and LAMMPS have for them.

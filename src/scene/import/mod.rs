@@ -1,26 +1,23 @@
 //! Particles from files: whatever the format, rows of numbers with the names that CSV columns have.
 
+mod bodies;
 mod csv;
 mod data;
 mod dump;
 mod format;
+mod multisphere;
 mod vtu;
 
+pub(crate) use bodies::{Bodies, CELL};
 pub(crate) use format::{Format, Units};
 
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, told_columns};
 use crate::base::geometry::Lattice;
 use crate::base::memory;
 use flate2::read::MultiGzDecoder;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::Read;
-
-/// Columns that every file must have.
-const NEEDED: [&str; 4] = ["x", "y", "z", "radius"];
-
-/// Columns that a file may have: number, density \[kg/m³\], velocity \[m/s\], angular velocity \[rad/s\].
-const POSSIBLE: [&str; 8] = ["id", "density", "vx", "vy", "vz", "wx", "wy", "wz"];
 
 /// Memory that a line of a text file takes as it is read, at least \[bytes\].
 const ROW: u64 = 100;
@@ -44,6 +41,8 @@ pub(crate) struct Rows {
     pub(crate) lines: Vec<u32>,
     /// The box around them, if the file says it.
     pub(crate) around: Option<FileBox>,
+    /// What the file says and nothing reads: columns and sections by name.
+    pub(crate) left_out: Vec<String>,
 }
 
 /// The box of a file.
@@ -53,8 +52,8 @@ pub(crate) struct FileBox {
     pub(crate) lattice: Lattice,
     /// Whether the file says along which edges it repeats.
     pub(crate) is_told: bool,
-    /// The line that tells it, or the first one with a particle that crossed its faces.
-    pub(crate) line: usize,
+    /// The line that tells it, or the first one with a particle that crossed its faces; none in a file without lines.
+    pub(crate) line: Option<usize>,
     /// Whether there is such a particle.
     pub(crate) is_crossed: bool,
 }
@@ -77,14 +76,14 @@ struct Bounds {
 
 impl Bounds {
     /// The box of these numbers at a line, if its edges are as a cell has them.
-    fn lattice(self, line: usize) -> Result<Lattice, Vec<FileFault>> {
+    fn lattice(self, line: Option<usize>) -> Result<Lattice, Vec<FileFault>> {
         let lattice = Lattice { origin: self.low, edges: self.edges, periodic: [false; 3] };
         match crate::scene::cell::fault_of(&lattice) {
             None => Ok(lattice),
             Some(expected) => {
                 let found = format!("a box with edges {:?}", self.edges);
                 let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
-                Err(vec![FileFault { line: Some(line), column: String::new(), mistake }])
+                Err(vec![FileFault { line, column: String::new(), mistake }])
             }
         }
     }
@@ -204,12 +203,7 @@ impl FileFault {
 
     /// A column that is not there.
     fn missing(line: Option<usize>, column: &str, found: &[String]) -> Self {
-        // The first line of a file that is no table is nobody's business.
-        let is_name = |name: &String| {
-            let word = |letter: char| letter.is_alphanumeric() || "_.-[]()/ ^²³".contains(letter);
-            name.len() <= 32 && name.starts_with(char::is_alphabetic) && name.chars().all(word)
-        };
-        let mistake = if found.len() > 1 && found.iter().all(is_name) {
+        let mistake = if told_columns(found).is_some() {
             Mistake::Column { column: column.to_owned(), found: found.to_vec() }
         } else {
             let expected = format!("a line of column names with {column}");
@@ -235,6 +229,8 @@ pub(crate) const REPORTED: usize = 10;
 pub(crate) struct Request<'a> {
     /// The file's name.
     pub(crate) file: &'a str,
+    /// What its rows are.
+    pub(crate) bodies: Bodies,
     /// Columns wanted beside the known ones, where the file has them.
     pub(crate) extra: &'a [String],
     /// What it is.
@@ -264,9 +260,12 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
         Format::Vtu => (vtu::read(&bytes, request)?, Some("si".to_owned()).filter(|_| request.units.is_none())),
         Format::Data => data::read(text(&bytes)?, request)?,
         Format::Dump => dump::read(text(&bytes)?, request)?,
+        Format::Multisphere => (multisphere::read(text(&bytes)?)?, Some("si".to_owned())),
     };
     has_room(rows.count, memory::SPHERE)?;
     convert(&mut rows, units(request, stated)?);
+    bodies::memberships(&mut rows, request)?;
+    bodies::density_of_mass(&mut rows, request)?;
     Ok(rows)
 }
 
@@ -312,12 +311,23 @@ fn format(request: &Request, bytes: &[u8]) -> Result<Format, Vec<FileFault>> {
         Some("vtu" | "vtp" | "vtk") => Ok(Format::Vtu),
         Some("data" | "lmpdat") => Ok(Format::Data),
         Some("dump" | "lammpstrj" | "liggghts") => Ok(Format::Dump),
+        Some("multisphere") if request.bodies == Bodies::SpheresOfClump => Ok(Format::Multisphere),
+        Some("multisphere") => Err(unknown(
+            "the spheres of one clump",
+            "single bodies; [clump.<name>] file takes such a file, and a set with clump = \"<name>\" places the clumps",
+        )),
         _ if bytes.starts_with(b"ITEM:") => Ok(Format::Dump),
-        _ => Err(vec![FileFault::whole(Mistake::Unexpected {
-            found: "a file of unknown kind".to_owned(),
-            expected: "format = \"csv\", \"vtu\", \"data\" or \"dump\" in the scene".to_owned(),
-        })]),
+        _ if request.bodies == Bodies::SpheresOfClump => Err(unknown(
+            "a file of unknown kind",
+            "a name that ends in .csv, .vtu, .vtp, .vtk, .data, .dump or .multisphere",
+        )),
+        _ => Err(unknown("a file of unknown kind", "format = \"csv\", \"vtu\", \"data\" or \"dump\" in the scene")),
     }
+}
+
+/// Refuses a file for its kind.
+fn unknown(found: &str, expected: &str) -> Vec<FileFault> {
+    vec![FileFault::whole(Mistake::Unexpected { found: found.to_owned(), expected: expected.to_owned() })]
 }
 
 /// The text of a file.
@@ -333,6 +343,10 @@ fn text(bytes: &[u8]) -> Result<&str, Vec<FileFault>> {
 /// The units of a file: as it says itself, or else as the scene says.
 fn units(request: &Request, stated: Option<String>) -> Result<Units, Vec<FileFault>> {
     match (stated, request.units) {
+        (None, None) if request.bodies == Bodies::SpheresOfClump => Err(unknown(
+            "a file that does not state its units",
+            "units = si in the first line of a data file, ITEM: UNITS in a dump",
+        )),
         (None, None) => Err(vec![FileFault::whole(Mistake::NoUnits)]),
         (None, Some(units)) => Ok(units),
         (Some(name), given) => match Units::named(&name) {
@@ -363,6 +377,7 @@ fn convert(rows: &mut Rows, units: Units) {
     for (name, column) in &mut rows.columns {
         let factor = match name.as_str() {
             "x" | "y" | "z" | "radius" => length,
+            "mass" => mass,
             "density" => mass / (length * length * length),
             "vx" | "vy" | "vz" => length / time,
             "wx" | "wy" | "wz" => 1.0 / time,
@@ -370,16 +385,6 @@ fn convert(rows: &mut Rows, units: Units) {
         };
         column.iter_mut().for_each(|value| *value *= factor);
     }
-}
-
-/// Refuses a file without the columns that every file must have.
-fn needed(found: &[String], line: Option<usize>) -> Result<(), Vec<FileFault>> {
-    let missing: Vec<FileFault> = NEEDED
-        .iter()
-        .filter(|column| !found.iter().any(|name| name == *column))
-        .map(|column| FileFault::missing(line, column, found))
-        .collect();
-    if missing.is_empty() { Ok(()) } else { Err(missing) }
 }
 
 /// Refuses particles that crossed a face of a box which does not repeat.
@@ -390,18 +395,20 @@ fn crossed(line: usize) -> Vec<FileFault> {
 
 /// Refuses bodies that are not spheres.
 fn non_spherical(line: usize) -> Vec<FileFault> {
-    let mistake = Mistake::Unsupported { what: "non-spherical bodies", instead: "spheres" };
+    let mistake = Mistake::Unsupported { what: "non-spherical bodies but clumps", instead: "spheres" };
     vec![FileFault { line: Some(line), column: String::new(), mistake }]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::ParticleShape;
     use std::path::Path;
 
     /// Reads a text as a file of this name.
     fn read_as(file: &str, bytes: &[u8]) -> Result<Rows, String> {
-        let request = Request { file, extra: &[], format: None, units: None, timestep: None };
+        let bodies = Bodies::Particles(ParticleShape::Sphere);
+        let request = Request { file, bodies, extra: &[], format: None, units: None, timestep: None };
         let units = (file.ends_with("dump") || file.ends_with("data")).then_some(Units::Si);
         read(bytes, &Request { units, ..request }).map_err(|faults| format!("{faults:?}"))
     }
@@ -546,7 +553,7 @@ mod tests {
         let rows = read_as("a.data", text.as_bytes()).unwrap();
         assert_eq!(place(&rows, 0), [6.0, -1.0, 1.5]);
         let around = rows.around.unwrap();
-        assert!(around.is_crossed && !around.is_told && around.line == 11, "{around:?}");
+        assert!(around.is_crossed && !around.is_told && around.line == Some(11), "{around:?}");
         let without = read_as("a.data", text.replace("0 2 xlo xhi\n", "\n").as_bytes()).unwrap_err();
         assert!(without.contains("xlo xhi"), "{without}");
         let general = text.replace(

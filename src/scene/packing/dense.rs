@@ -26,7 +26,7 @@ const EFFORT: usize = 250_000_000;
 /// Mean overlap over diameter, where the spheres lock first, that shaking does not overcome.
 const HOPELESS: f64 = 0.08;
 
-/// So many spheres that they fill this share of the region; otherwise the key that is wrong.
+/// Spheres that fill this share of the region; otherwise the key that is wrong.
 pub(super) fn dense(
     region: &Region,
     solid_fraction: f64,

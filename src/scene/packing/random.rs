@@ -93,7 +93,7 @@ pub(crate) fn packing(
     }
 }
 
-/// So many spheres, each at the first random place where it finds room; the largest are placed first.
+/// Places spheres, each at the first random place where it finds room, the largest first.
 fn scattered(
     region: &Region,
     count: usize,

@@ -225,8 +225,8 @@ impl RigidBody {
 
     /// The acceleration that its present load gives to its points this far from the point of reference \[m\], at most \[m/s²\].
     pub(crate) fn acceleration(&self, moved: &BoundaryState, extent: f64) -> f64 {
-        let rigid = Rigid { velocity: Vector::zero(), momentum: Vector::zero(), ..self.rigid(moved) };
-        rigid.kicked(1.0).fastest(extent)
+        let [along, about] = self.rigid(moved).answer();
+        along.length() + about.length() * extent
     }
 
     /// Which of its six freedoms are free.

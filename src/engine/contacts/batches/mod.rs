@@ -85,6 +85,9 @@ pub(crate) trait Bodies: Copy {
     /// Tells the processor that these particles (slots) will be needed soon, with what the law looks at.
     fn prefetch(&self, _slots: Range<usize>, _needs: Needs) {}
 
+    /// Adds heat \[J\] that two bodies share to them.
+    fn warm(&self, first: u32, second: u32, heat: f64, sum: &mut Self::Sum);
+
     /// Adds the loads of touching entries to their bodies, one by one.
     fn spread(&self, touching: &Touching, needs: Needs, sum: &mut Self::Sum);
 }
@@ -198,6 +201,11 @@ impl<B: Bodies> Batches<'_, B> {
             }
             if !matches!(manner, Some(EntryEvaluation::Followed)) {
                 lanes::run(width, ScatterPhase { bodies, needs, buffer, sum });
+                if law.booked.warms() && !runs.is_empty() {
+                    for (place, &heat) in buffer.heat().iter().enumerate() {
+                        bodies.warm(buffer.first[place], buffer.second[place], heat, sum);
+                    }
+                }
             }
             buffer.proceed(B::FOUND);
         }

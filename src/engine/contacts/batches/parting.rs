@@ -6,11 +6,13 @@ use crate::laws::contact::batch::Sums;
 use crate::laws::contact::{Contact, parting};
 
 /// Bodies that part: who is told of it.
-pub(super) struct Parting<'a, 'b, B> {
+pub(super) struct Parting<'a, 'b, B: Bodies> {
     /// The list.
     pub(super) work: &'a Batches<'b, B>,
     /// The book of what is lost with their contacts.
     pub(super) losses: &'a mut Sums,
+    /// What is summed up.
+    pub(super) sum: &'a mut B::Sum,
 }
 
 impl<B: Bodies> Parting<'_, '_, B> {
@@ -26,7 +28,12 @@ impl<B: Bodies> Parting<'_, '_, B> {
             // SAFETY: the caller's promise.
             let (contact, [spring, loads, other]) = unsafe { self.ended(entry) };
             let (booked, step) = (&self.work.law.booked, self.work.step);
-            self.losses.add_parted(parting(booked, &contact, step, spring.into(), [loads, other]));
+            let (lost, held) = parting(booked, &contact, step, spring.into(), [loads, other]);
+            if booked.warms() {
+                let bodies = &self.work.bodies;
+                bodies.warm(bodies.first()[entry], bodies.second()[entry], 0.5 * booked.heat(&lost), self.sum);
+            }
+            self.losses.add_parted((lost, held));
         }
     }
 

@@ -69,7 +69,7 @@ impl<B: Bodies, const BEYOND: bool, const CHOSEN: bool> Kernel for TouchPhase<'_
                 let beyond = if BEYOND { Some(N::load(reaches.as_ptr())) } else { None };
                 let (touching, found) = bodies.touch::<N>(first, second, beyond, sum);
                 let bits = touching & wanted & ((1 << here) - 1);
-                let parting = Parting { work, losses: &mut buffer.losses };
+                let parting = Parting { work, losses: &mut buffer.losses, sum: &mut *sum };
                 if CHOSEN {
                     end_chosen(parting, entry, here, [wanted, bits]);
                 } else if here == N::WIDTH {

@@ -12,7 +12,7 @@ mod sphere;
 
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
-use super::pass::{Pass, Stiffness, Telling};
+use super::pass::{Pass, Stiffness, SurfaceTouch, Telling};
 use super::records::ContactRecord;
 use crate::base::lanes::{Shared, Width};
 use crate::base::number::Vector;
@@ -25,6 +25,7 @@ use crate::engine::contacts::encounters::{self, Encounters};
 use crate::engine::run_error::{Cause, RunError};
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{BoundaryState, Nodes, State, StateFault, WallContacts};
+use crate::engine::transfer::takes_heat;
 use crate::laws::surface::{self, Deforming};
 use crate::scene::{Boundary, Outside, Scene, Shape};
 use features::{ColumnBuffer, FeatureContacts};
@@ -66,6 +67,8 @@ pub(super) struct AtSurface {
     conveying: Vector,
     /// The body that it is, where forces move it.
     body: Option<RigidBody>,
+    /// Which share of the heat of losses it takes.
+    share_of_heat: f64,
     /// Rows that are stored for each contact.
     kept_rows: usize,
     /// Coefficients of the law.
@@ -145,6 +148,8 @@ impl AtSurface {
             reference: boundary.reference.into(),
             conveying,
             body,
+            // An adiabatic surface leaves all to the particle.
+            share_of_heat: if takes_heat(boundary) { 0.5 } else { 0.0 },
             kept_rows: scene.kept_rows(law).len(),
             table: CoefficientTable::of(choice, scene),
             law: BatchLaw::of(scene.law(law)),
@@ -187,7 +192,8 @@ impl AtSurface {
     ) -> AtPlane<'a> {
         let boundary = &boundaries[list.boundary as usize];
         let (plane, pivot) = (plane.at(boundary), self.reference + boundary.displacement.into());
-        AtPlane { plane, pivot, particle: &list.particle, material: self.material, particles }
+        let (material, share_of_heat) = (self.material, self.share_of_heat);
+        AtPlane { plane, pivot, particle: &list.particle, material, share_of_heat, particles }
     }
 
     /// Evaluates a piece of a list.
@@ -215,7 +221,8 @@ impl AtSurface {
 
     /// Adds the loads of the pieces to its boundary, in order.
     fn book<'a>(&self, state: &mut State, loads: impl Iterator<Item = &'a Load>) -> Result<(), RunError> {
-        let boundary = &mut state.boundaries[state.walls[self.index].boundary as usize];
+        let number = state.walls[self.index].boundary as usize;
+        let boundary = &mut state.boundaries[number];
         let mut behind = None;
         for load in loads {
             for axis in 0..3 {
@@ -226,6 +233,9 @@ impl AtSurface {
             behind = behind.or(load.behind);
             if let Some(losses) = &mut state.losses {
                 load.lost.book(&self.law.law, losses);
+            }
+            if let Some(heat) = &mut state.heat {
+                heat.boundaries[number].of_losses += load.heat;
             }
         }
         match behind {
@@ -275,7 +285,10 @@ impl Pass for SurfacePass {
             entries: &workspace.entries,
             boundaries: &state.boundaries,
             nodes: &state.nodes,
-            particles: ParticleLoads::of(&mut state.particles),
+            particles: ParticleLoads::of(
+                &mut state.particles,
+                state.heat.as_mut().map_or(&mut [], |heat| &mut heat.of_losses),
+            ),
             passing: &self.passing,
             far,
             context,
@@ -392,6 +405,20 @@ impl Telling for SurfacePass {
             match surface.plane_list(state) {
                 Some(list) => listed::records(&list, state, step, tell),
                 None => surface.records_at_features(state, step, tell),
+            }
+        }
+    }
+
+    fn touched(&self, state: &State, tell: &mut dyn FnMut(SurfaceTouch)) {
+        for surface in &self.surfaces {
+            let (boundary, law) = (surface.list(state).boundary, surface.law_index);
+            match surface.plane_list(state) {
+                Some(list) => listed::touched(&list, state, &mut |slot, overlap| {
+                    tell(SurfaceTouch { slot, boundary, law, overlap, weight: 1.0 });
+                }),
+                None => surface.touched_at_features(state, &mut |slot, overlap, weight| {
+                    tell(SurfaceTouch { slot, boundary, law, overlap, weight });
+                }),
             }
         }
     }

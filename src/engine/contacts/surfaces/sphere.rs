@@ -100,13 +100,15 @@ pub(super) struct ParticleLoads<'a> {
     force: Shared<Row>,
     /// Torques.
     torque: Shared<Row>,
+    /// Heat of losses \[J\]; empty where none warms the particles.
+    heat: Shared<f64>,
 }
 
 impl<'a> ParticleLoads<'a> {
-    /// The particles of a state.
-    pub(super) fn of(particles: &'a mut Particles) -> Self {
+    /// The particles of a state, and heat that losses give to them \[J\].
+    pub(super) fn of(particles: &'a mut Particles, heat: &'a mut [f64]) -> Self {
         let (force, torque) = (Shared::new(&mut particles.force), Shared::new(&mut particles.torque));
-        Self { force, torque, ..Self::looking(particles) }
+        Self { force, torque, heat: Shared::new(heat), ..Self::looking(particles) }
     }
 
     /// The particles of a state that is looked at alone: nothing is added to them.
@@ -119,7 +121,18 @@ impl<'a> ParticleLoads<'a> {
             owner: &particles.owner,
             force: Shared::new(&mut []),
             torque: Shared::new(&mut []),
+            heat: Shared::new(&mut []),
         }
+    }
+
+    /// Adds heat of a loss \[J\], of which the surface takes this share, to a particle and the surface.
+    ///
+    /// # Safety
+    /// The particle belongs to the piece of work that asks.
+    pub(super) unsafe fn warm(&self, slot: u32, heat: f64, share: f64, load: &mut Load) {
+        // SAFETY: the caller's promise.
+        unsafe { *self.heat.at(slot as usize) += heat * (1.0 - share) };
+        load.heat += heat * share;
     }
 
     /// Velocities and, where there is torque, angular velocities of some particles.
@@ -193,6 +206,8 @@ pub(super) struct Load {
     pub(super) conveying_power: f64,
     /// What was lost, where that is booked.
     pub(super) lost: Lost,
+    /// What of it warms the surface \[J\].
+    pub(super) heat: f64,
     /// A particle (slot) whose centre is behind the surface, or went through it.
     pub(super) behind: Option<u32>,
 }

@@ -35,6 +35,14 @@ impl Simulation {
         workspace.between.begin();
     }
 
+    /// Makes room for the heat of what contacts are about to lose.
+    pub(super) fn begin_heat_of_losses(&mut self) {
+        let Simulation { state, .. } = self;
+        if let Some(heat) = &mut state.heat {
+            heat.collect(state.particles.len());
+        }
+    }
+
     /// Gives passes the velocities that include the streaming motion of the cell.
     pub(super) fn stream(&mut self) {
         if let Some(cell) = &mut self.cell {

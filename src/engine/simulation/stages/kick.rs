@@ -6,9 +6,26 @@ use crate::base::number::larger;
 use crate::base::threads::Context;
 use crate::engine::bodies::{book, boundary};
 use crate::engine::boundaries::{loads, nodes};
-use crate::engine::{energy, integration};
+use crate::engine::{energy, integration, transfer};
 
 impl Simulation {
+    /// Lets heat flow between what touches now.
+    pub(super) fn transfer_heat(&mut self, step: &mut TimeStep) {
+        let Self { transfer, scene, passes, state, .. } = self;
+        if let Some(transfer) = transfer {
+            transfer.advance((scene, passes), state, &step.progress, step.context);
+        }
+    }
+
+    /// Finds what conducts now, before anything flows.
+    pub(in crate::engine::simulation) fn look_at_heat(&mut self, context: &Context) {
+        let Self { transfer, scene, passes, state, .. } = self;
+        if let Some(transfer) = transfer {
+            transfer.look((scene, passes), state, context);
+            transfer::tell(scene, state);
+        }
+    }
+
     /// Adds gravity, applied forces and global damping to the loads on particles.
     pub(in crate::engine::simulation) fn apply_fields(&mut self, context: &Context) {
         let Self { fields, state, workspace, .. } = self;

@@ -51,6 +51,8 @@ pub enum Part {
     Clumps,
     /// The periodic cell and its images.
     Cell,
+    /// Temperatures, and the heat of particles and boundaries.
+    Heat,
     /// Energy books, and the impulse of global damping.
     Books,
     /// The largest speed of what forces move, and how far all went since the stable step was found.
@@ -59,7 +61,7 @@ pub enum Part {
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Places,
         Self::Motions,
         Self::Loads,
@@ -70,6 +72,7 @@ impl Part {
         Self::Boundaries,
         Self::Clumps,
         Self::Cell,
+        Self::Heat,
         Self::Books,
         Self::Speed,
     ];
@@ -98,9 +101,12 @@ pub(super) struct Stages([Vec<&'static Stage>; Phase::ALL.len()]);
 impl Stages {
     /// Those of a simulation.
     pub(super) fn of(simulation: &Simulation) -> Self {
-        Self(
-            Phase::ALL.map(|phase| ROWS[phase as usize].iter().filter(|stage| (stage.is_needed)(simulation)).collect()),
-        )
+        // Where the mechanics are frozen heat alone flows, but forces are evaluated at the start: they tell what touches.
+        let frozen = simulation.scene.heat.frozen;
+        let runs = |phase, stage: &Stage| !frozen || phase == Phase::Forces || stage.writes == [Part::Heat];
+        let needed = |phase, stage: &Stage| (stage.is_needed)(simulation) && runs(phase, stage);
+        let of_phase = |phase| ROWS[phase as usize].iter().filter(|stage| needed(phase, stage)).collect();
+        Self(Phase::ALL.map(of_phase))
     }
 
     /// Those of a phase.

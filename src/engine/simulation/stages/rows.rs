@@ -1,6 +1,8 @@
 //! The list of the stages.
 
-use super::Part::{Bonds, Books, Boundaries, Cell, Clumps, Contacts, Lists, Loads, Motions, Particles, Places, Speed};
+use super::Part::{
+    Bonds, Books, Boundaries, Cell, Clumps, Contacts, Heat, Lists, Loads, Motions, Particles, Places, Speed,
+};
 use super::{Phase, Simulation, Stage};
 use crate::engine::state::ledger::Source;
 
@@ -110,6 +112,14 @@ const FORCES: &[Stage] = &[
         run: |it, _| it.begin_loads(),
     },
     Stage {
+        name: "heat of losses",
+        scenes: "losses that warm",
+        is_needed: |it| it.scene.heat.warms(),
+        reads: &[Particles],
+        writes: &[Heat],
+        run: |it, _| it.begin_heat_of_losses(),
+    },
+    Stage {
         name: "streaming motion",
         scenes: "periodic cell",
         is_needed: Simulation::is_cell_loaded,
@@ -122,7 +132,7 @@ const FORCES: &[Stage] = &[
         scenes: "contact laws",
         is_needed: |it| it.acts(Source::Contacts),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Books],
+        writes: &[Loads, Contacts, Books, Heat],
         run: |it, step| it.act(Source::Contacts, step),
     },
     Stage {
@@ -194,7 +204,7 @@ const FORCES: &[Stage] = &[
         scenes: "surfaces that particles may meet",
         is_needed: |it| it.acts(Source::Walls),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Boundaries, Books],
+        writes: &[Loads, Contacts, Boundaries, Books, Heat],
         run: |it, step| it.act(Source::Walls, step),
     },
     Stage {
@@ -225,6 +235,14 @@ const FORCES: &[Stage] = &[
 
 /// The other half of the kick.
 const KICK: &[Stage] = &[
+    Stage {
+        name: "heat",
+        scenes: "temperatures",
+        is_needed: |it| it.scene.has_heat(),
+        reads: &[Places, Lists, Contacts, Bonds, Boundaries, Heat],
+        writes: &[Heat],
+        run: Simulation::transfer_heat,
+    },
     Stage {
         name: "fields",
         scenes: "applied forces, global damping",

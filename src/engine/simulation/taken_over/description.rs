@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write;
 use xxhash_rust::xxh3::Xxh3;
 
+/// This program.
+const PROGRAM: &str = concat!("cograin ", env!("CARGO_PKG_VERSION"));
+
 /// A scene, as far as its states refer to it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Description {
@@ -19,10 +22,18 @@ pub struct Description {
     pub time: f64,
     /// Fingerprint of the scene.
     pub fingerprint: u64,
+    /// The text of the scene and every file that it names, each with a fingerprint of its own.
+    #[serde(default)]
+    parts: Vec<(String, u64)>,
+    /// Digest of the table of inputs of the run, if it has one.
+    #[serde(default)]
+    pub inputs: Option<u64>,
     /// Fingerprint of everything that decides how the scene goes on.
     course: u64,
     /// Numbers of the particles, ascending: first and count of each series.
     particles: Vec<[u32; 2]>,
+    /// Declared columns of the particles: names.
+    columns: Vec<String>,
     /// Materials: names.
     materials: Vec<String>,
     /// Insertions: name, and what is to come, without the value of a rate.
@@ -52,12 +63,15 @@ impl Description {
             (bond.name.clone(), format!("{:?}", bond.keys.formulation), plane)
         });
         Self {
-            program: concat!("cograin ", env!("CARGO_PKG_VERSION")).to_owned(),
+            program: PROGRAM.to_owned(),
             scene: name.to_owned(),
             time,
             fingerprint: scene.fingerprint,
+            parts: scene.parts.clone(),
+            inputs: None,
             course: course(scene),
             particles,
+            columns: scene.columns.iter().map(|start| start.column.name.to_owned()).collect(),
             materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
             insertions: scene.insertions.iter().map(|it| (it.name.clone(), amount(it))).collect(),
             boundaries: scene.boundaries.iter().map(|it| (it.name.clone(), shape(it).to_owned())).collect(),
@@ -68,9 +82,30 @@ impl Description {
         }
     }
 
+    /// The same of a run with a table of inputs of this digest.
+    pub(crate) fn with_inputs(self, inputs: Option<u64>) -> Self {
+        Self { inputs, ..self }
+    }
+
     /// Whether a scene goes on in the same way: it differs in its end and its outputs at most.
     pub fn goes_on_as(&self, scene: &Scene) -> bool {
         self.course == course(scene)
+    }
+
+    /// In which parts a scene differs, in words.
+    pub(crate) fn differing_parts(&self, scene: &Scene) -> String {
+        let of = |parts: &[(String, u64)], name: &str| parts.iter().find(|(known, _)| known == name).map(|(_, it)| *it);
+        let names = self.parts.iter().chain(&scene.parts).map(|(name, _)| name);
+        let mut differing: Vec<&str> = Vec::new();
+        for name in names.filter(|name| of(&self.parts, name) != of(&scene.parts, name)) {
+            if !differing.contains(&name.as_str()) {
+                differing.push(name);
+            }
+        }
+        if self.program != PROGRAM {
+            differing.push("the program");
+        }
+        if differing.is_empty() { "text, files, settings or program".to_owned() } else { differing.join(", ") }
     }
 
     /// Whether a state can be one of this scene, as far as the description tells: what [`Simulation::taken_over`] trusts.
@@ -86,6 +121,8 @@ impl Description {
         let count = self.particles.iter().map(|&[_, count]| u64::from(count)).sum::<u64>();
         let own = state.particles.slot.len() - state.particles.numbers.len();
         demand(count == own as u64, "particles", own, same)?;
+        let declared = state.particles.declared.len();
+        demand(declared == self.columns.len(), "declared", declared, same)?;
         let known = state.particles.material.iter().all(|&material| (material as usize) < self.materials.len());
         demand(known, "material", 0, "materials of the scene")?;
         let feeds = state.exchange.as_ref().map_or(0, |exchange| exchange.feeds.len());
@@ -112,6 +149,11 @@ impl Description {
     /// Numbers of the particles, ascending.
     pub(super) fn ids(&self) -> impl Iterator<Item = u32> + '_ {
         self.particles.iter().flat_map(|&[first, count]| (0..count).map(move |k| first + k))
+    }
+
+    /// Names of the declared columns of the particles.
+    pub(super) fn columns(&self) -> &[String] {
+        &self.columns
     }
 
     /// The place here of each of the other scene's materials that has a name of this scene's.
@@ -229,7 +271,13 @@ fn course(scene: &Scene) -> u64 {
             hashed.0.update(&number.to_bits().to_le_bytes());
         }
     }
-    let mut rest = SceneDraft { particles: Vec::new(), fingerprint: 0, unread: Vec::new(), ..SceneDraft::clone(scene) };
+    let mut rest = SceneDraft {
+        particles: Vec::new(),
+        fingerprint: 0,
+        parts: Vec::new(),
+        unread: Vec::new(),
+        ..SceneDraft::clone(scene)
+    };
     rest.run.end = None;
     rest.run.threads = None;
     rest.run.plane = None;

@@ -2,6 +2,7 @@
 
 use super::{Description, Numbers};
 use crate::engine::bodies::clumps;
+use crate::engine::columns;
 use crate::engine::flow;
 use crate::engine::state::exchange::InsertionProgress;
 use crate::engine::state::{InsertedParticle, State};
@@ -15,6 +16,8 @@ pub(super) fn put_newcomers(
     reached: &State,
     (from, numbers): (&Description, &mut Numbers),
 ) -> Option<String> {
+    // Where the other scene has no such column, particles begin as those of the first insertion do.
+    let declared = if scene.insertions.is_empty() { Vec::new() } else { columns::of_insertion(scene, 0) };
     let other = &reached.particles;
     let (last, own) = (scene.particles.last().map_or(0, |last| last.id.0), numbers.here.len());
     let mut here = vec![None; other.slot.len() - own];
@@ -32,12 +35,13 @@ pub(super) fn put_newcomers(
                 inertia,
                 material,
                 number,
+                declared: &declared,
             })
         });
         // No particle has an orientation yet.
         here[there as usize - own] = newcomer.map(|newcomer| state.add_particle(&newcomer, 0, false));
     }
-    put_clumps(scene, state, reached, (from, own, &mut here));
+    put_clumps(scene, state, reached, (from, &declared), (own, &mut here));
     let there = |place: usize| other.slot_of((own + place) as u32).is_some();
     let behind = (0..here.len()).filter(|&place| here[place].is_none() && there(place)).count();
     numbers.here.extend(here);
@@ -68,7 +72,8 @@ fn put_clumps(
     scene: &Scene,
     state: &mut State,
     reached: &State,
-    (from, own, here): (&Description, usize, &mut [Option<u32>]),
+    (from, declared): (&Description, &[f64]),
+    (own, here): (usize, &mut [Option<u32>]),
 ) {
     let (clumps, other) = (&reached.clumps, &reached.particles);
     for (clump, &number) in clumps.number.iter().enumerate() {
@@ -86,6 +91,7 @@ fn put_clumps(
                 inertia: other.angular_velocity[slot][3],
                 material: from.material_here(scene, other.material[slot])?,
                 number: other.number_of_inserted(there)?,
+                declared,
             })
         };
         let Some(spheres) = there.iter().map(sphere).collect::<Option<Vec<_>>>() else { continue };

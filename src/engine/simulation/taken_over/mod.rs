@@ -17,7 +17,8 @@ use crate::engine::bodies::boundary;
 use crate::engine::bodies::clumps;
 use crate::engine::boundaries::{nodes, placing};
 use crate::engine::cell::images;
-use crate::engine::state::{State, StateFault};
+use crate::engine::columns;
+use crate::engine::state::{Particles, State, StateFault};
 use crate::laws::bond::creation::Moment;
 use crate::scene::{CellMotion, Scene};
 use std::sync::Arc;
@@ -41,6 +42,12 @@ impl Numbers {
     /// The index here of a particle of the other scene.
     fn at(&self, there: u32) -> Option<u32> {
         self.here.get(there as usize).copied().flatten()
+    }
+
+    /// Slots here, which are indices, and there of the particles that are in both.
+    fn slots(&self, other: &Particles) -> Vec<[usize; 2]> {
+        let both = |(there, here): (u32, &Option<u32>)| Some([(*here)? as usize, other.slot_of(there)?]);
+        (0..).zip(&self.here).filter_map(both).collect()
     }
 }
 
@@ -69,7 +76,9 @@ impl Simulation {
         state.clock.lost = reached.clock.lost;
         state.clock.steps = reached.clock.steps;
         state.clock.rebuilds = reached.clock.rebuilds;
-        put_particles(&mut state, reached, &numbers);
+        let slots = numbers.slots(&reached.particles);
+        put_particles(&mut state, reached, &slots);
+        left.extend(columns::take_over(&scene, &mut state, (reached, from.columns()), &slots));
         put_clumps(&mut state, reached, &numbers);
         put_boundaries(&scene, &mut state, reached, from);
         let rows = images::take_over(&mut state, reached, |there| numbers.at(there));
@@ -106,13 +115,12 @@ fn begin_inputs(scene: &Scene, state: &mut State) {
 }
 
 /// Sets positions and motion of the particles.
-fn put_particles(state: &mut State, reached: &State, numbers: &Numbers) {
+fn put_particles(state: &mut State, reached: &State, slots: &[[usize; 2]]) {
     let (particles, other) = (&mut state.particles, &reached.particles);
     if !other.orientation.is_empty() {
         particles.orientation.resize(particles.len(), Quaternion::identity().to_row());
     }
-    for (there, here) in numbers.here.iter().enumerate() {
-        let (Some(slot), Some(from)) = (here.map(|here| here as usize), other.slot_of(there as u32)) else { continue };
+    for &[slot, from] in slots {
         for axis in 0..3 {
             particles.position[slot][axis] = other.position[from][axis];
             particles.velocity[slot][axis] = other.velocity[from][axis];

@@ -18,7 +18,7 @@ pub struct Keys {
 /// `stressBreak`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distance {
-    /// That distance \[m\].
+    /// `max_distance` \[m\].
     pub most: f64,
 }
 

@@ -36,8 +36,8 @@ pub struct Keys {
 /// | T      | limit of tension, at most c cot φ            | Pa   | `tensile_strength`               |
 ///
 /// Normal and shear stress act together, where the limits of `stress` each look at one of them. Uniaxial compression breaks at
-/// 2 c cos φ/(1 − sin φ), shear without normal force at the smaller of c cos φ and T. Shear and torsion are added as if
-/// they had their largest values at the place where bending has its own: the limit is on the safe side.
+/// 2 c cos φ/(1 − sin φ), shear without normal force at the smaller of c cos φ and T. Shear and torsion are added as if they
+/// had their largest values where bending has its own. The limit is thus on the safe side.
 ///
 /// Source: the limit of tension on Coulomb's law is that of B. Paul, *J. Appl. Mech.* 28 (1961) 259–268; that bonds break by
 /// the principal stress at their rim (σ₁ there, without friction), D. André, I. Iordanoff, J.-L. Charles & J. Néauport,

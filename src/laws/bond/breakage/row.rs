@@ -34,7 +34,7 @@ pub struct BreakageRow {
 }
 
 impl BreakageRow {
-    /// That of a rule.
+    /// The row of a rule.
     pub const fn of<B: Breakage>() -> &'static Self {
         const {
             &Self {

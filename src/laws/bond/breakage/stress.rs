@@ -35,8 +35,8 @@ const STRETCHED_BELOW: f64 = 1e-16;
 /// τ' = shear strength + sgn(u) |N|/A tan φ
 /// ```
 ///
-/// The larger of the two parts of the stress that is too large names the cause: tension or compression, or bending;
-/// shear, or torsion. Where compression relieves, a compressed bond hence breaks by bending.
+/// The stress that is too large has two parts: tension or compression and bending, or shear and torsion. The larger part
+/// names the cause. Where compression relieves, a compressed bond hence breaks by bending.
 ///
 /// After the evaluation of this step and without damping. With friction, compression raises the shear strength and
 /// tension lowers it, below 0 if need be: Mohr and Coulomb's limit on the mean normal stress. A strength that is not

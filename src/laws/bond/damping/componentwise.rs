@@ -23,9 +23,18 @@ const SMOOTH_THRESHOLD_BY_FORCE: f64 = 0.01;
 /// v_min = max(threshold · R_min/Δt, 0.01 X_k Δt) for the two forces with `smooth`, else → 0 (the sign of v_k)
 /// ```
 ///
-/// As LIGGGHTS-INL does (`dampingBond`, `dampingBondSmooth`): the result depends on the axes of the scene, the
-/// normal force leaves the axis of the bond, a loaded bond never quite rests and the smooth variant falls
-/// back to the sign above a step that shrinks with the load. The signed second entry of v_min is the engine's, dimension and all.
+/// | symbol | meaning                                       | unit       | comes from        |
+/// |--------|-----------------------------------------------|------------|-------------------|
+/// | X_k    | component of force or torque of each part     | N, N m     | the formulation   |
+/// | v_k    | its rate                                      | m/s, rad/s | the motion        |
+/// | α      | share of each part                            | 1          | `damping.sign`, `damping.smooth` |
+/// | R_min  | smaller radius of the two bodies              | m          | the pair          |
+///
+/// The result depends on the axes of the scene, and the normal force leaves the axis of the bond. A loaded bond never quite
+/// rests. `smooth` falls back to the sign above a step that shrinks with the load. The signed second entry of v_min is the
+/// engine's, dimension and all.
+///
+/// Source: LIGGGHTS-INL, `dampingBond` (`sign`) and `dampingBondSmooth` (`smooth`).
 #[derive(Clone, Copy, Debug)]
 pub struct Componentwise {
     /// α of each part.

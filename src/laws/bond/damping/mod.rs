@@ -166,7 +166,7 @@ impl<N: Number> DampingLoad<N> {
         [self.force, self.torque_i, self.torque_j].map(|vector| vector.row_with(N::zero()))
     }
 
-    /// Back from them.
+    /// The inverse of `to_rows`.
     #[inline(always)]
     pub fn from_rows(rows: LoadRows<N>) -> Self {
         let [force, torque_i, torque_j] = rows.map(Vector::of_row);
@@ -196,7 +196,7 @@ impl LastDamping {
         [force, torque_i, torque_j, across, about]
     }
 
-    /// Back from them.
+    /// The inverse of `to_rows`.
     pub fn from_rows([force, torque_i, torque_j, across, about]: [[f64; 4]; Self::MOST_ROWS]) -> Self {
         Self { load: [force, torque_i, torque_j], rates: [across, about] }
     }

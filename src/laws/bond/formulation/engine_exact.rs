@@ -23,9 +23,9 @@ use crate::laws::bond::{Coefficients, Elastic, Intermediate, Motion, Pair, Rates
 /// | l           | shares of r by radius                     | m      | the pair     |
 /// | q           | min(Δt/τ, 1) of each part                 | 1      | `relaxation` |
 ///
-/// Where it fails: stored vectors are projected, not turned (shear shrinks by exp(−2π²/n) in a turn of n steps and
-/// does not follow a turn about the axis); the bending torque is thrown away as its axis turns, and all of it
-/// while the bond rests; at a wall the spin counts with half the arm in v_s. See `docs/bonds.md`.
+/// It fails in three ways (`docs/bonds.md`). Stored vectors are projected, not turned: shear shrinks by exp(−2π²/n) in a
+/// turn of n steps and does not follow a turn about the axis. The bending torque is thrown away as its axis turns, and all
+/// of it while the bond rests. At a wall the spin counts with half the arm in v_s.
 ///
 /// Source: LIGGGHTS-INL 4.0.0, manual page "gran cohesion bond", and its behaviour when run.
 #[derive(Clone, Copy, Debug)]

@@ -25,16 +25,16 @@ use crate::laws::bond::{Coefficients, Elastic, Intermediate, Motion, Pair, Quate
 /// | L        | distance at creation                                                     | m    | state        |
 /// | d0, Ψ0   | length and twist without force (relaxation shifts them, and the a)       | m, rad | state      |
 ///
-/// φ_i, φ_j, ψ and r are six coordinates of the relative placement of two bodies, so U is a function of that
-/// placement alone: turning the pair as a whole changes nothing, closed loops do no work, momentum and angular
-/// momentum are kept. Exchanging i and j changes the sign of e and of the a, hence no strain. To first order in
-/// the strains force and moments are those of the document; in a plane motion γ and κ are exactly linear in the angles.
-/// Against the rate form the shear differs in the second order of the strains (arm L, not the present r).
+/// φ_i, φ_j, ψ and r are six coordinates of the relative placement of two bodies, so U is a function of that placement
+/// alone. Turning the pair as a whole changes nothing, and closed loops do no work. Momentum and angular momentum are kept.
+/// Exchanging i and j changes the sign of e and of the a, hence no strain. To first order in the strains force and moments
+/// are those of the document. In a plane motion γ and κ are exactly linear in the angles. Against the rate form the shear
+/// differs in the second order of the strains (arm L, not the present r).
 ///
 /// With m = a × e/(1 + a·e) = tan(|φ|/2) φ/|φ|, φ = 2 arctan(|m|) m/|m|, f = arctan(|m|)/|m|, g = ∂U/∂φ, the torque on a
 /// body that follows from the variation of m and Ψ with its orientation is
-/// f (1 − m²) g + [1 − f (1 − m²)] (m·g) m/m² − 2 f (a·g) e/(1 + a·e), and of the torsion M ± M (a + e)/(1 + a·e). The force across the
-/// axis follows from both torques, as U does not change when the pair is turned as a whole: it is e × (T_i + T_j)/r.
+/// f (1 − m²) g + [1 − f (1 − m²)] (m·g) m/m² − 2 f (a·g) e/(1 + a·e), and of the torsion M ± M (a + e)/(1 + a·e). The force
+/// across the axis follows from both torques, as U does not change when the pair turns as a whole. It is e × (T_i + T_j)/r.
 /// The angle functions are polynomials that are right to rounding (`angle.rs`).
 ///
 /// Holds while each body is turned by less than π against the axis and |κ| < π; beyond, `overbent`.
@@ -191,7 +191,7 @@ impl<N: Number> Ends<N> {
         [a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z, d.x, d.y, d.z, e, f, self.along, self.across, self.shared]
     }
 
-    /// Back.
+    /// The inverse of `to_numbers`.
     #[inline(always)]
     fn from_numbers(numbers: &Intermediate<N>) -> Self {
         let vector = |first: usize| Vector::new(numbers[first], numbers[first + 1], numbers[first + 2]);

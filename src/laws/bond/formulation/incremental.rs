@@ -21,10 +21,10 @@ use crate::laws::bond::{Coefficients, Elastic, Intermediate, Motion, Pair, Rates
 /// | R₁, R₂        | turn from the axis of the last step to that of mid-step, and on to the present one: each the shortest, then half of the mean spin about the axis | 1 | the pair |
 /// | q             | min(Δt/τ, 1) of each part                                   | 1    | `relaxation` |
 ///
-/// Velocities and positions are used at the same moment (mid-step), so the forces of a prescribed motion converge
-/// with the square of the step, relaxation apart, which is the document's and of first order. The turns keep
-/// lengths: a held load neither shrinks nor creeps. There is no stored energy whose gradient this is; a closed loop of
-/// finite size leaves a small net force, as in every rate form.
+/// Velocities and positions are used at the same moment, mid-step. The forces of a prescribed motion thus converge with the
+/// square of the step. Relaxation is the document's and of first order. The turns keep lengths: a held load neither shrinks
+/// nor creeps. There is no stored energy whose gradient this is; a closed loop of finite size leaves a small net force, as
+/// in every rate form.
 ///
 /// Source: the document's equations (`docs/bonds.md`); D. O. Potyondy & P. A. Cundall, *Int. J. Rock Mech. Min. Sci.* 41
 /// (2004) 1329–1364.

@@ -70,7 +70,7 @@ mod column {
     pub(crate) const TILT: [usize; 3] = [34, 35, 36];
     /// Part of the step in which the bodies touched.
     pub(crate) const SHARE: usize = 37;
-    /// Of a book of losses: the tangential spring before.
+    /// Of a book of losses: the tangential spring before; then, in place of its first component, what of the losses is heat.
     pub(crate) const SPRING: [usize; 3] = [38, 39, 40];
     /// Of a book of losses: velocity along the normal at mid-step.
     pub(crate) const VELOCITY: usize = 41;
@@ -473,6 +473,21 @@ impl Buffer {
     pub(crate) unsafe fn before<N: Lane>(&self, place: usize) -> (Vector<N>, N) {
         // SAFETY: the caller's promise.
         unsafe { (self.load_vector(at::SPRING, place), self.load(at::VELOCITY, place)) }
+    }
+
+    /// Stores what of the losses of a register's worth of contacts is heat \[J\].
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn put_heat<N: Lane>(&mut self, place: usize, heat: N) {
+        // SAFETY: the caller's promise.
+        unsafe { self.store(at::SPRING[0], place, heat) };
+    }
+
+    /// What of the losses of the contacts is heat, contact by contact \[J\].
+    pub(crate) fn heat(&self) -> &[f64] {
+        &self.columns[at::SPRING[0]][..self.ready]
     }
 
     /// Overlap of a register's worth of suppressed contacts beyond their offsets.

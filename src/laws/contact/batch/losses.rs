@@ -123,6 +123,9 @@ pub(crate) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<
                 *energy = N::select(counted, *energy, N::zero());
             }
         }
+        if booked.warms() {
+            stage.buffer.put_heat(place, booked.heat(&lost) * N::splat(0.5));
+        }
         let mut kind = 0;
         while kind < LossKind::COUNT {
             if booked.takes(kind) {

@@ -119,7 +119,7 @@ impl<N: Number> SpherePair<N> {
         [self.apart.x, self.apart.y, self.apart.z, self.radius_i, self.radius_j]
     }
 
-    /// Back from them.
+    /// The inverse of `to_found`.
     #[inline(always)]
     pub(crate) fn from_found([x, y, z, radius_i, radius_j]: [N; FOUND]) -> Self {
         Self { apart: Vector::new(x, y, z), radius_i, radius_j }

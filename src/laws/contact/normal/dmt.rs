@@ -59,6 +59,7 @@ impl Normal for Dmt {
     const NAME: &'static str = "dmt";
     type Keys = Keys;
     type Form = Self;
+    const ELASTIC_SPHERES: bool = true;
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let [modulus, energy, tangential, viscoelastic, mass, plain, ratio] = keys.coefficients(pair, friction)?;

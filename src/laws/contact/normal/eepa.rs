@@ -49,9 +49,9 @@ coefficients! {
     /// `limit_force` cuts the pull of the dashpot where nothing adheres. k_n for the other sub-models is k₁ δ^(n − 1).
     /// Everything is forgotten when the bodies part. Give the time step for k₂ at the largest load.
     ///
-    /// With `engine_exact`, as the engine does: δ_m = ½ δ_p where f is ½ k₂ δ_pⁿ, whatever n; a = 0 at walls, so that surface
-    /// energy does not act there; k_n for the other sub-models is k₁, and γ_n that of n = 1, whatever n: numbers that depend on
-    /// the units; `limit_force` does not see a fixed k_a and cuts it off.
+    /// `engine_exact` does as the engine. Where f is ½ k₂ δ_pⁿ, δ_m = ½ δ_p, whatever n. At walls a = 0, so surface energy
+    /// does not act there. k_n for the other sub-models is k₁, and γ_n that of n = 1, whatever n: numbers that depend on the
+    /// units. `limit_force` does not see a fixed k_a and cuts it off.
     ///
     /// Source: J. P. Morrissey, PhD thesis, University of Edinburgh (2013); S. C. Thakur, J. P. Morrissey, J. Sun, J. F.
     /// Chen & J. Y. Ooi, *Granul. Matter* 16 (2014) 383–400; LIGGGHTS, model `edinburgh`.

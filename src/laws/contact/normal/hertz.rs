@@ -31,6 +31,7 @@ impl Normal for Hertz {
     const NAME: &'static str = "hertz";
     type Keys = NoKeys;
     type Form = Hertzian;
+    const ELASTIC_SPHERES: bool = true;
 
     fn onset(_keys: &NoKeys) -> Onset {
         Onset::FourthRoot

@@ -23,9 +23,9 @@ coefficients! {
     /// | V      | characteristic velocity    | m/s   | `characteristic_velocity` |
     /// | e      | coefficient of restitution | 1     | `restitution`             |
     ///
-    /// At an impact with speed V the spring stores at its largest overlap what a Hertz contact would; slower or
-    /// faster impacts are too stiff or too soft. The measured restitution is e at every speed. The force may
-    /// pull near the end of a contact.
+    /// At an impact with speed V the spring stores at its largest overlap what a Hertz contact would. Slower impacts are too
+    /// stiff, faster ones too soft. The measured restitution is e at every speed. The force may pull near the end of a
+    /// contact.
     ///
     /// Source: the stiffness of equal strain energy, LIGGGHTS manual, `gran_model_hooke`.
     pub struct Hooke {

@@ -25,9 +25,9 @@ coefficients! {
     /// | St_c   | critical Stokes number                 | 1     | `critical_stokes_number`  |
     /// | η      | viscosity of the fluid                 | Pa s  | `fluid_viscosity`         |
     ///
-    /// The restitution of the source, e = e_max exp(St_c/St), belongs to the impact velocity; here the velocity
-    /// of the moment stands for it, with its sign: damping is stronger during approach than during rebound, and
-    /// vanishes on the way out where L passes 0. It is never above critical damping.
+    /// The restitution of the source, e = e_max exp(St_c/St), belongs to the impact velocity. Here the velocity of the
+    /// moment stands for it, with its sign. Damping is stronger during approach than during rebound, and vanishes on the way
+    /// out where L passes 0. It is never above critical damping.
     ///
     /// Source: D. Legendre, C. Daniel & P. Guiraud, *Phys. Fluids* 17 (2005) 097105; the moment's velocity as in
     /// the LIGGGHTS manual, `gran_model_hooke`, `viscous`.

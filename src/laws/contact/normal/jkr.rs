@@ -39,11 +39,11 @@ coefficients! {
     /// ```
     ///
     /// The second is where the curve itself ends: beyond the largest pull the neck thins while the pull falls. To part from touch then
-    /// takes the work 7.09 (32 γ⁵ R*⁴/E*²)^(1/3), twice that of the first. Bodies that approach feel nothing before
+    /// takes the work 7.09 (32 γ⁵ R\*⁴/E\*²)^(1/3), twice that of the first. Bodies that approach feel nothing before
     /// touch. For soft, large, sticky spheres (Tabor's number above 5); for hard small ones see `dmt`.
     ///
-    /// With `engine_exact` the slip velocity has arms R instead of R − δ/2, and the torque at a wall too, as in the engine:
-    /// power in velocity and torque then differ by δ/2R.
+    /// With `engine_exact` the slip velocity has arms R instead of R − δ/2, and the torque at a wall too, as in the engine.
+    /// The powers in velocity and torque then differ by δ/2R.
     ///
     /// Source: K. L. Johnson, K. Kendall & A. D. Roberts, *Proc. R. Soc. Lond. A* 324 (1971) 301–313; E. Parteli et al.,
     /// *Sci. Rep.* 4 (2014) 6227 (a in closed form); C. Thornton, *J. Phys. D* 24 (1991) 1942 (limit of friction); C. Thornton &
@@ -179,6 +179,7 @@ impl Normal for Jkr {
     const NAME: &'static str = "jkr";
     type Keys = Keys;
     type Form = Self;
+    const ELASTIC_SPHERES: bool = true;
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
         let [modulus, energy, tangential, viscoelastic, mass, plain, ratio] =
@@ -202,6 +203,11 @@ impl NormalForm for Jkr {
     fn reach(&self, radius: f64) -> f64 {
         let ratio = self.surface_energy / self.youngs_modulus / radius;
         self.reach * radius * libm::cbrt(ratio * ratio)
+    }
+
+    #[inline(always)]
+    fn contact_radius<N: Number>(law: Jkr<N>, overlap: N, radius: N) -> N {
+        law.contact_radius(overlap, radius)
     }
 
     #[inline(always)]

@@ -18,9 +18,9 @@ coefficients! {
     /// | R*      | effective radius                | m      | the contact        |
     /// | µ_r     | coefficient of rolling friction | 1      | `rolling_friction` |
     ///
-    /// The length of the whole spin divides, then the part about the normal is taken off: a body that also
-    /// spins about the normal rolls more easily. Damping, cohesion and `limit_force` do not change the torque.
-    /// It never rests: about zero spin it changes sign from step to step.
+    /// The length of the whole spin divides, then the part about the normal is taken off. A body that also spins about the
+    /// normal thus rolls more easily. Damping, cohesion and `limit_force` do not change the torque. It never rests: about
+    /// zero spin it changes sign from step to step.
     ///
     /// Source: J. Ai, J.-F. Chen, J. M. Rotter & J. Y. Ooi, *Powder Technol.* 206 (2011) 269–282, model A.
     pub struct Cdt {

@@ -31,11 +31,11 @@ coefficients! {
     /// | µ_r    | coefficient of rolling friction           | 1     | `rolling_friction`        |
     /// | η_r    | fraction of critical damping              | 1     | `rolling_viscous_damping` |
     ///
-    /// The limit is put to the spring alone: the dashpot drops out when it is reached. N holds the dashpot of the normal
+    /// The limit applies to the spring alone: the dashpot drops out when it is reached. N holds the dashpot of the normal
     /// force, and attraction with `tangential_reduce`. M is not rescaled when k_r changes.
     ///
-    /// With `engine_exact`, as the engine does: M keeps its direction in space; at a wall w is multiplied by
-    /// (R − δ/2)/(R − δ); the evaluation before the first step stretches the spring by `set_up_step` and forgets it.
+    /// `engine_exact` does as the engine. M keeps its direction in space. At a wall w is multiplied by (R − δ/2)/(R − δ).
+    /// The evaluation before the first step stretches the spring by `set_up_step` and forgets it.
     ///
     /// Source: J. Ai, J.-F. Chen, J. M. Rotter & J. Y. Ooi, *Powder Technol.* 206 (2011) 269–282, model C; LIGGGHTS
     /// manual, `gran_rolling_friction_epsd`.

@@ -14,17 +14,42 @@ pub(super) const NEEDS: Needs = Needs { torque: true, spin: true, bodies: true, 
 
 /// `[contact.<law>.rolling.<model>]` of models with a spring.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "Written")]
 pub struct Keys {
     /// Whether spin about the normal is resisted, too.
-    #[serde(default)]
     pub torsion: bool,
     /// Whether spin at a wall, the direction of the torque and the first evaluation are as in the engine.
-    #[serde(default)]
     pub engine_exact: bool,
     /// With `engine_exact`: the time step by which the engine stretches the spring in the evaluation before the first
     /// step, without remembering it \[s\].
     pub set_up_step: Option<Positive>,
+}
+
+/// The keys as they are written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Written {
+    /// See [`Keys`].
+    #[serde(default)]
+    torsion: bool,
+    /// See [`Keys`].
+    #[serde(default)]
+    engine_exact: bool,
+    /// See [`Keys`] \[s\].
+    set_up_step: Option<Positive>,
+}
+
+impl TryFrom<Written> for Keys {
+    type Error = &'static str;
+
+    fn try_from(Written { torsion, engine_exact, set_up_step }: Written) -> Result<Self, Self::Error> {
+        if set_up_step.is_some() && !engine_exact {
+            return Err(
+                "expected engine_exact = true beside set_up_step, which is a step of the engine, found it alone",
+            );
+        }
+        Ok(Self { torsion, engine_exact, set_up_step })
+    }
 }
 
 impl Keys {

@@ -19,7 +19,7 @@ pub struct Carry<N = f64> {
 }
 
 impl<N: Number> Carry<N> {
-    /// That of a contact in a step \[s\]. `touches`: bodies touch where they overlap and nowhere else, so that an overlap
+    /// The motion of a contact in a step \[s\]. `touches`: bodies touch where they overlap and nowhere else, so that an overlap
     /// smaller than their approach began in this step.
     #[inline(always)]
     pub fn of(contact: &Contact<N>, step: N, touches: bool) -> Self {

@@ -22,10 +22,10 @@ coefficients! {
     /// | N        | magnitude of the normal force seen | N       | the law          |
     /// | µ        | coefficient of friction            | 1       | `friction`       |
     ///
-    /// The limit is put to the spring alone: while the contact sticks, spring and dashpot together may exceed
-    /// µ N. k_t is the present one and s is not rescaled, so that a contact which is sheared under a small overlap and
-    /// released under a larger one gains energy: 41 % of the first work where the overlap doubles, none the other way round
-    /// (Elata & Berryman, *Mech. Mater.* 24 (1996) 229–240).
+    /// The limit applies to the spring alone: while the contact sticks, spring and dashpot together may exceed µ N. k_t is
+    /// the present one, and s is not rescaled. A contact that is sheared under a small overlap and released under a larger
+    /// one thus gains energy. It gains 41 % of the first work where the overlap doubles, none the other way round (Elata &
+    /// Berryman, *Mech. Mater.* 24 (1996) 229–240).
     ///
     /// Source: L. E. Silbert et al., *Phys. Rev. E* 64 (2001) 051302.
     pub struct History {

@@ -32,9 +32,10 @@ coefficients! {
     /// that shrinks while sheared gains no energy.
     ///
     /// Where the dashpot alone exceeds the limit, as it does at first touch, the engine stretches the spring backwards, to
-    /// (µ N − γ_t v_t)/k, which has no bound as k goes to 0 with the overlap: later the spring pushes the way the bodies slip, by an amount that
-    /// depends on the depth at which the first time step finds the contact. Without `backward_spring` the dashpot takes friction to
-    /// its limit and the spring stays at rest until the dashpot falls below it.
+    /// (µ N − γ_t v_t)/k. This has no bound as k goes to 0 with the overlap. Later the spring pushes the way the bodies
+    /// slip, by an amount that depends on the depth at which the first time step finds the contact. Without
+    /// `backward_spring` the dashpot takes friction to its limit and the spring stays at rest until the dashpot falls below
+    /// it.
     ///
     /// Source: S. Luding, *Granul. Matter* 10 (2008) 235–246; C. Thornton, S. J. Cummins & P. W. Cleary, *Powder
     /// Technol.* 233 (2013) 30–46 (`rescale`); LAMMPS manual, `pair_style granular`: `linear_history`, `mindlin`,

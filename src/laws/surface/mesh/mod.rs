@@ -135,7 +135,7 @@ impl Flat {
         flat
     }
 
-    /// So many triangles, each a patch of its own.
+    /// Triangles without neighbours, each a patch of its own.
     fn nowhere(triangles: usize) -> Self {
         Self { edges: vec![0; triangles], patch: (0..triangles as u32).collect() }
     }

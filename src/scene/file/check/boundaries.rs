@@ -2,6 +2,7 @@
 
 use super::body;
 use super::contacts::material_index;
+use super::heat;
 use super::motion;
 use super::particles::ReadParticles;
 use super::raw_tables::RawTables;
@@ -13,14 +14,14 @@ use crate::laws::contact::Material;
 use crate::laws::surface::{Files, Selection, Shape, ShapeContext, Surface};
 use crate::scene::Source;
 use crate::scene::file::tables::BoundaryTable;
-use crate::scene::{AxisMotion, Boundary, InputCourse, NodeMotion, Outside, SceneDraft};
+use crate::scene::{AxisMotion, Boundary, ColumnStart, InputCourse, NodeMotion, Outside, SceneDraft};
 
 /// All boundaries.
 pub(super) fn boundaries(
     written: &RawTables,
     source: &Source,
     materials: &[Material],
-    born: &ReadParticles,
+    (born, columns): (&ReadParticles, &[ColumnStart]),
     faults: &mut Faults,
 ) -> Vec<Boundary> {
     let mut owners = ParticleOwners::of(born);
@@ -45,7 +46,9 @@ pub(super) fn boundaries(
         let reference =
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
         let (nodes, outside) = (boundary.nodes, boundary.outside);
-        let boundary = Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside };
+        let temperature = heat::temperature(boundary, &table, (materials, born, columns), faults);
+        let boundary =
+            Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside, temperature };
         alone(&boundary, faults);
         boundaries.push(boundary);
     }

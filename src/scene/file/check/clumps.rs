@@ -1,5 +1,6 @@
 //! Sets of clumps: where each is placed, and the spheres that follow.
 
+use super::columns::ByName;
 use super::named_tables::Named;
 use super::place::Place;
 use super::raw_tables::RawTables;
@@ -8,7 +9,7 @@ use crate::base::document::{Faults, Mistake};
 use crate::base::quantity::{MaterialIndex, Positive};
 use crate::scene::clump::{ClumpKeys, OrientationKey, spheres, unit};
 use crate::scene::file::tables::{ListEntry, ParticlesTable};
-use crate::scene::import::{self, Request};
+use crate::scene::import::{self, Bodies, Request, Rows};
 use crate::scene::packing::generator::{generator, uniform};
 use crate::scene::packing::{self, PackingProgress};
 use crate::scene::{Clump, ClumpShape, Particle, Source};
@@ -17,8 +18,11 @@ use std::collections::BTreeMap;
 /// Columns of a file that say how a clump is turned.
 const TURN: [&str; 4] = ["qw", "qx", "qy", "qz"];
 
+/// How far a mass of a file may be from what the clump's table says: texts have six digits.
+const OF_DIGITS: f64 = 1e-5;
+
 /// Clumps of a set, where they stand in its text or file, and the further columns of its file.
-type Read = (Vec<Placed>, Place, BTreeMap<String, Vec<f64>>);
+type Read = (Vec<Placed>, Place, ByName);
 
 /// How large a clump is.
 #[derive(Clone, Copy)]
@@ -27,6 +31,16 @@ enum Size {
     Scale(f64),
     /// Radius of the bounding sphere \[m\].
     Bounding(f64),
+}
+
+impl Size {
+    /// All lengths over those of the shape.
+    fn scale(self, shape: &ClumpShape) -> f64 {
+        match self {
+            Self::Scale(scale) => scale,
+            Self::Bounding(radius) => radius / shape.bounding_radius(),
+        }
+    }
 }
 
 /// Where a clump is to be, and of what.
@@ -58,7 +72,7 @@ impl SetReader<'_> {
             return None;
         };
         let (shape, keys) = (&self.shapes[index], &self.keys[index].1);
-        let (placed, place, columns) = self.placed(keys, source, extra, faults, tell)?;
+        let (placed, place, columns) = self.placed((keys, shape), source, extra, faults, tell)?;
         if shape.mass.is_some() && placed.iter().any(|it| it.density.is_some()) {
             let what = format!("[clump.{name}] has a mass");
             let expected = "leave density out".to_owned();
@@ -74,10 +88,7 @@ impl SetReader<'_> {
         let mut random = generator(self.seed, &format!("{}.orientation", self.table));
         let (mut particles, mut clumps, mut rows) = (Vec::new(), Vec::new(), Vec::new());
         for (row, Placed { like, size, orientation, density }) in placed.into_iter().enumerate() {
-            let scale = match size {
-                Size::Scale(scale) => scale,
-                Size::Bounding(radius) => radius / shape.bounding_radius(),
-            };
+            let scale = size.scale(shape);
             let turn = orientation.turn(shape, &mut || uniform(&mut random));
             let density = density.or(keys.density.map(Positive::get)).unwrap_or(like.density);
             let motion = [like.velocity, like.angular_velocity];
@@ -104,7 +115,7 @@ impl SetReader<'_> {
     /// Where the clumps of the set are to be.
     fn placed(
         &self,
-        keys: &ClumpKeys,
+        (keys, shape): (&ClumpKeys, &ClumpShape),
         source: &Source,
         extra: &[String],
         faults: &mut Faults,
@@ -113,10 +124,11 @@ impl SetReader<'_> {
         let ParticlesTable { list, file, lattice, packing, .. } = self.written;
         let fallback = self.clump_material(keys, faults);
         if let Some(list) = list {
-            return Some((self.listed_clumps(list, fallback, faults), Place::Nowhere, BTreeMap::new()));
+            let columns = self.listed_columns(faults);
+            return Some((self.listed_clumps(list, fallback, faults), Place::Nowhere, columns));
         }
         if let Some(file) = file {
-            return self.filed_clumps(file, fallback, source, extra, faults);
+            return self.filed_clumps(file, (fallback, shape), source, extra, faults);
         }
         let bounding = match (lattice, packing) {
             (Some(lattice), _) => packing::lattice(lattice),
@@ -197,18 +209,46 @@ impl SetReader<'_> {
         placed
     }
 
+    /// Whether the rows of a file are clumps of one shape, of which each says once how large it is.
+    fn of_one_shape(&self, file: &str, rows: &Rows, faults: &mut Faults) -> bool {
+        let mut wrong = |row: usize, key: &str, found: String, expected: &str| {
+            let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
+            faults.in_file(file, rows.line(row), &self.table, key, mistake);
+            false
+        };
+        let several = |names: [&str; 2]| names.iter().all(|name| rows.columns.contains_key(*name));
+        if let Some([a, b]) = [["radius", "scale"], ["density", "mass"]].into_iter().find(|names| several(*names)) {
+            return wrong(0, b, format!("both columns {a} and {b}"), "one of them");
+        }
+        let shapes = rows.columns.get("shape").map_or(&[][..], Vec::as_slice);
+        match shapes.iter().position(|shape| *shape != shapes[0]) {
+            Some(row) => {
+                let found = format!("shape {} beside shape {}", shapes[row], shapes[0]);
+                wrong(row, "shape", found, "clumps of one shape: the set names one, so each shape needs its own file")
+            }
+            None => true,
+        }
+    }
+
     /// Clumps from the rows of a file.
     fn filed_clumps(
         &self,
         file: &str,
-        fallback: Option<MaterialIndex>,
+        (fallback, shape): (Option<MaterialIndex>, &ClumpShape),
         source: &Source,
         extra: &[String],
         faults: &mut Faults,
     ) -> Option<Read> {
-        let wanted: Vec<String> = extra.iter().cloned().chain(TURN.map(str::to_owned)).collect();
-        let mut rows = self.read_file(file, source, &wanted, faults)?;
-        let by_label = if rows.label.is_empty() { vec![fallback] } else { self.labelled(file, &rows, faults) };
+        let mut rows = self.read_file(file, source, extra, faults)?;
+        if !self.of_one_shape(file, &rows, faults) {
+            return None;
+        }
+        let by_label = if rows.label.is_empty() {
+            self.refuse_materials(faults);
+            vec![fallback]
+        } else {
+            self.labelled(file, &rows, faults)
+        };
         if rows.label.is_empty() && fallback.is_none() {
             self.no_material(faults);
             return None;
@@ -227,7 +267,7 @@ impl SetReader<'_> {
         }
         let own = |key: &str| match key {
             "material" => !rows.label.is_empty(),
-            "density" => column("density").is_some(),
+            "density" => column("density").is_some() || column("mass").is_some(),
             "velocity" => ["vx", "vy", "vz"].into_iter().any(|name| column(name).is_some()),
             "angular_velocity" => ["wx", "wy", "wz"].into_iter().any(|name| column(name).is_some()),
             _ => turned.iter().all(Option::is_some),
@@ -240,14 +280,25 @@ impl SetReader<'_> {
                 let mistake = Mistake::Unexpected { found, expected: expected.to_owned() };
                 faults.in_file(file, rows.line(row), &self.table, key, mistake);
             };
-            let radius = column("radius").map_or(0.0, |radius| radius[row]);
-            let density = column("density").map(|density| density[row]);
-            for (key, value) in [("radius", radius), ("density", density.unwrap_or(1.0))] {
-                if value <= 0.0 {
-                    wrong(key, format!("{value:?}"), "a number above 0");
+            let number = |name: &str| column(name).map(|column| column[row]);
+            let keys = ["radius", "scale", "density", "mass"];
+            if let Some(key) = keys.into_iter().find(|key| number(key).is_some_and(|value| value <= 0.0)) {
+                wrong(key, format!("{:?}", number(key).unwrap_or(0.0)), "a number above 0");
+                return None;
+            }
+            let radius = number("radius").unwrap_or(0.0);
+            let size = number("scale").map_or(Size::Bounding(radius), Size::Scale);
+            let scale = size.scale(shape);
+            // Of a shape whose density is one.
+            let light = shape.mass.unwrap_or(shape.volume) * (scale * scale * scale);
+            let density = match (shape.mass, number("mass")) {
+                (Some(_), Some(mass)) if (mass - light).abs() > OF_DIGITS * light => {
+                    wrong("mass", format!("{mass:?} kg"), &format!("{light:?} kg, which [clump] says of this size"));
                     return None;
                 }
-            }
+                (None, Some(mass)) => Some(mass / light),
+                (_, _) => number("density"),
+            };
             if column("id").is_some() {
                 wrong("id", "a column id".to_owned(), "none: spheres of clumps get their numbers by themselves");
                 return None;
@@ -263,11 +314,11 @@ impl SetReader<'_> {
             let mut like = self.particle(material, three(["x", "y", "z"], row)?, radius);
             like.velocity = three(["vx", "vy", "vz"], row).unwrap_or(like.velocity);
             like.angular_velocity = three(["wx", "wy", "wz"], row).unwrap_or(like.angular_velocity);
-            let mut one = self.like(like, Size::Bounding(radius), orientation);
+            let mut one = self.like(like, size, orientation);
             one.density = density.or(one.density);
             placed.push(one);
         }
-        let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        let columns = self.further_columns(file, &mut rows, extra, faults);
         Some((placed, Place::File(file.to_owned(), rows.lines, rows.around), columns))
     }
 }
@@ -316,13 +367,20 @@ pub(super) fn shapes(written: &Named<ClumpKeys>, source: &Source, faults: &mut F
 
 /// The spheres that a file of a clump's table has: centres and radii \[m\].
 fn filed_spheres(file: &str, table: &str, source: &Source, faults: &mut Faults) -> Option<Vec<([f64; 3], f64)>> {
-    let request = Request { file, extra: &[], format: None, units: None, timestep: None };
+    let bodies = Bodies::SpheresOfClump;
+    let request = Request { file, bodies, extra: &[], format: None, units: None, timestep: None };
     let read = import::read(source.files.get(file)?, &request);
     let rows = read.map_err(|list| {
         list.into_iter().for_each(|fault| faults.in_file(file, fault.line, table, &fault.column, fault.mistake));
     });
     let rows = rows.ok()?;
-    if let Some(column) = rows.columns.keys().find(|name| name.starts_with(['d', 'v', 'w'])) {
+    faults.left_out(table, file, &rows.left_out);
+    if rows.labels.len() > 1 {
+        let (found, expected) = (format!("spheres of {} materials", rows.labels.len()), "those of one".to_owned());
+        faults.in_file(file, Some(1), table, &rows.label_column, Mistake::Unexpected { found, expected });
+        return None;
+    }
+    if let Some(column) = rows.columns.keys().find(|name| name.starts_with(['d', 'm', 'v', 'w'])) {
         let (found, expected) = (format!("a column {column}"), "x, y, z, radius: a clump moves as a whole".to_owned());
         faults.in_file(file, Some(1), table, column, Mistake::Unexpected { found, expected });
         return None;

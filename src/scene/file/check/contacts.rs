@@ -4,8 +4,8 @@ use super::named_tables::Named;
 use super::raw_tables::{Law, RawTables};
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
-use crate::base::quantity::MaterialIndex;
-use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme, Switches};
+use crate::base::quantity::{MaterialIndex, Positive};
+use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme, Switches, Thermal};
 use crate::scene::ContactLaw;
 use crate::scene::file::tables::MaterialPairs;
 
@@ -16,6 +16,11 @@ pub(super) fn materials(written: &RawTables) -> Vec<Material> {
         density: table.density.get(),
         youngs_modulus: table.youngs_modulus.map(crate::base::quantity::Positive::get),
         poissons_ratio: table.poissons_ratio.map(crate::base::quantity::PoissonsRatio::get),
+        thermal: Thermal {
+            conductivity: table.conductivity.map(Positive::get),
+            specific_heat: table.specific_heat.map(Positive::get),
+            real_youngs_modulus: table.real_youngs_modulus.map(Positive::get),
+        },
     };
     written.materials.iter().map(material).collect()
 }
@@ -100,8 +105,8 @@ fn governed(law: &Law, materials: &[Material], table: &str, faults: &mut Faults)
 
 /// The law as the program keeps it.
 fn composed(name: &str, law: &Law, between: Vec<bool>, scheme: Scheme) -> ContactLaw {
-    let &Law { ref table, normal, tangential, rolling, cohesion } = law;
+    let &Law { ref table, normal, tangential, rolling, cohesion, heat } = law;
     let switches = Switches::of(table.limit_force, table.tangential_damping.unwrap_or(true));
     let choice = LawChoice { normal, tangential, rolling, cohesion, switches, scheme };
-    ContactLaw { name: name.to_owned(), between, choice }
+    ContactLaw { name: name.to_owned(), between, choice, heat }
 }

@@ -5,11 +5,13 @@ mod bonded_pairs;
 mod bonds;
 mod boundaries;
 mod clumps;
+mod columns;
 mod consistency;
 mod contacts;
 mod damping;
 mod exchange;
 mod finding;
+mod heat;
 mod motion;
 mod named_tables;
 mod particles;
@@ -27,7 +29,7 @@ use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
 use crate::scene::{Accuracy, Cell, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
-use crate::scene::{cell, clump};
+use crate::scene::{cell, clump, column};
 use finding::Finding;
 use particles::ReadParticles;
 use raw_tables::RawTables;
@@ -48,14 +50,18 @@ pub(super) fn scene(
     check_output(&written.output, &mut faults);
     let pairs = contacts::pairs(&written, &materials, &mut faults);
     let laws = contacts::laws(&written.contacts, &materials, run.scheme, &mut faults);
-    let born = particles::particles(&written, source, &materials, &mut faults, tell);
+    let asked = columns::asked(document, &written.columns);
+    let born = particles::particles(&written, source, (&materials, &asked), &mut faults, tell);
+    faults.so_far()?;
+    let columns = columns::starts(&written, &asked, &born, &mut faults);
     faults.so_far()?;
     let cell = cell_of(&written, &born, &mut faults);
-    let boundaries = boundaries::boundaries(&written, source, &materials, &born, &mut faults);
+    let boundaries = boundaries::boundaries(&written, source, &materials, (&born, &columns), &mut faults);
     let bonds = bonds::bonds(&written, source, (&born, cell.as_ref()), &boundaries, &run, &mut faults);
     let damping = damping::damping(&written, &materials, &born, &mut faults);
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
+    let heat_sources = heat::sources(&written, &born, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
@@ -70,11 +76,14 @@ pub(super) fn scene(
         contacts: laws,
         sets: born.sets,
         particles: born.particles,
+        columns,
         clump_shapes: born.shapes,
         clumps: born.clumps,
         boundaries,
         damping,
         forces,
+        heat: written.heat.settings(),
+        heat_sources,
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
         domain: written.domain.map(|domain| domain.corners.0),
@@ -87,6 +96,7 @@ pub(super) fn scene(
         output: written.output,
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
+        parts: source.parts(),
         unread: faults.all_unread().to_vec(),
     };
     draft.parameters = parameters::of_scene(&draft, document);
@@ -104,7 +114,7 @@ fn cell_of(written: &RawTables, born: &ReadParticles, faults: &mut Faults) -> Op
     }
     for (table, file, around) in &born.boxes {
         if let Some([found, expected]) = cell::box_objection(cell.as_ref(), around) {
-            faults.in_file(file, Some(around.line), table, "", Mistake::Unexpected { found, expected });
+            faults.in_file(file, around.line, table, "", Mistake::Unexpected { found, expected });
         }
     }
     cell
@@ -134,6 +144,8 @@ impl SceneDraft {
 /// Reports what the parts of a scene are not to each other.
 fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let repeated = cell::repeat_surfaces(draft);
+    // Losses that warm are found by the book of losses.
+    draft.output.losses |= draft.heat.warms();
     let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
@@ -141,6 +153,7 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
     let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft));
+    let others = others.chain(column::objections(draft)).chain(crate::scene::heat::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);
@@ -199,6 +212,17 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
             Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() },
         );
     }
+    let strict = match (table.strict_step, table.step, table.allow_unstable) {
+        (Some(true), None | Some(StepKey::Automatic), _) => {
+            Some(("an automatic step is never above the stable one", "give a step, or leave strict_step out"))
+        }
+        (Some(true), _, Some(true)) => Some(("strict_step beside allow_unstable", "one of them")),
+        _ => None,
+    };
+    if let Some((what, expected)) = strict {
+        let (what, expected) = (what.to_owned(), expected.to_owned());
+        faults.add("run", "strict_step", Mistake::InvalidCombination { what, expected });
+    }
     if table.plane_particles.is_some() && table.plane.is_none() {
         let (what, expected) = ("plane_particles needs a plane", "write plane = \"xz\" beside it, or leave it out");
         faults.add(
@@ -218,6 +242,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         accuracy,
         scheme: table.scheme.unwrap_or(accuracy.scheme()),
         allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
+        strict_step: table.strict_step.unwrap_or(defaults.strict_step),
         threads: table.threads.map(|threads| threads.get() as usize),
         seed: table.seed.unwrap_or(defaults.seed),
         skin: table.skin.map(crate::base::quantity::Positive::get),

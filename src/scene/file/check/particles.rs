@@ -7,6 +7,7 @@ use super::set_reader::{SetReader, Unnumbered};
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::quantity::{ParticleId, SetIndex};
+use crate::laws::column::Column;
 use crate::laws::contact::Material;
 use crate::scene::Source;
 use crate::scene::cell::fault_of;
@@ -29,7 +30,7 @@ pub(super) struct ReadParticles {
     pub(super) clumps: Vec<Clump>,
     /// Names of the sets.
     pub(super) sets: Vec<String>,
-    /// Columns of each set that damping asks for.
+    /// Columns of each set that damping or the scene asks for.
     pub(super) columns: Vec<BTreeMap<String, Vec<f64>>>,
     /// Boxes that files say: table, file, box.
     pub(super) boxes: Vec<(String, String, FileBox)>,
@@ -39,7 +40,7 @@ pub(super) struct ReadParticles {
 pub(super) fn particles(
     written: &RawTables,
     source: &Source,
-    materials: &[Material],
+    (materials, asked): (&[Material], &[&'static Column]),
     faults: &mut Faults,
     tell: &mut dyn FnMut(PackingProgress),
 ) -> ReadParticles {
@@ -51,6 +52,14 @@ pub(super) fn particles(
     let cell = written.cell.as_ref().and_then(|keys| keys.cell(None, &mut |_, _| {})).map(|cell| cell.lattice);
     let cell = cell.filter(|lattice| fault_of(lattice).is_none());
     let seed = written.run.seed.unwrap_or(Run::default().seed);
+    // Spheres of a packing, turned clumps and what comes are random.
+    let is_random = |(_, set): &(String, ParticlesTable)| set.packing.is_some() || set.clump.is_some();
+    if written.run.seed.is_some() && written.insertions.is_empty() && !written.particles.iter().any(is_random) {
+        faults.unread("run", "seed", "nothing of this scene is random");
+    }
+    if written.run.skin.is_some() && written.contacts.is_empty() && written.bonds.is_empty() {
+        faults.unread("run", "skin", "without contacts and bonds nothing looks for neighbours");
+    }
     let shape = written.run.plane_particles.unwrap_or_default();
     let mut born = ReadParticles::default();
     let before = faults.count();
@@ -73,7 +82,9 @@ pub(super) fn particles(
             shape,
             shapes: &born.shapes,
             keys: &written.clumps,
+            columns: asked,
         };
+        let extra: Vec<String> = extra.iter().cloned().chain(reader.names_in_files()).collect();
         let (list, clumps, place, columns) = reader.read(source, &extra, faults, tell);
         if let Place::File(file, _, Some(around)) = &place {
             born.boxes.push((reader.table.clone(), file.clone(), *around));

@@ -1,12 +1,14 @@
 //! Every table of the text as its own type; from here on only relations between tables can be wrong.
 
+use super::columns;
 use super::named_tables::{Named, all, names};
 use crate::base::document::Mistake;
 use crate::base::document::messages;
 use crate::base::document::{Document, Faults, Part};
 use crate::laws::bond::keys::{BreakageChoice, Keys};
+use crate::laws::column::Column;
 use crate::laws::contact::{
-    CohesionModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
+    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
 };
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
@@ -14,8 +16,8 @@ use crate::scene::cell::CellKeys;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
-    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, MaterialTable, ParticlesTable, RunTable,
-    TABLES, Triple,
+    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable,
+    ParticlesTable, RunTable, TABLES, Triple,
 };
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
@@ -42,12 +44,18 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) particles: Named<ParticlesTable>,
     /// `[boundary.<name>]`
     pub(super) boundaries: Named<BoundaryTable>,
+    /// Columns that scenes may ask for.
+    pub(super) columns: Vec<&'static Column>,
     /// How the key of each shape is written.
     pub(super) hints: Vec<&'static str>,
     /// `[damping.<name>]`
     pub(super) damping: Named<DampingTable>,
     /// `[force.<name>]`
     pub(super) forces: Named<ForceTable>,
+    /// `[heat]`
+    pub(super) heat: HeatTable,
+    /// `[heat_source.<name>]`
+    pub(super) heat_sources: Named<HeatSourceTable>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
     /// `[insertion.<name>]`
@@ -80,6 +88,8 @@ pub(super) struct Law {
     pub(super) rolling: RollingModel,
     /// Cohesion sub-model.
     pub(super) cohesion: CohesionModel,
+    /// Heat sub-model, where heat flows.
+    pub(super) heat: Option<HeatModel>,
 }
 
 /// How many materials a scene may have: what each two have in common is kept as a square.
@@ -140,12 +150,14 @@ impl RawTables {
         let contacts = laws(document, models, faults);
         let bonds = bonds(document, models, faults);
         let clumps = all(document, "clump", faults);
-        let particles = all(document, "particles", faults);
+        let particles = columns::particles(document, &models.columns, faults);
         let boundaries = boundaries(document, models, faults);
         let damping = all(document, "damping", faults);
         let forces = all(document, "force", faults);
+        let heat = document.read("heat", faults);
+        let heat_sources = all(document, "heat_source", faults);
         let regions = all(document, "region", faults);
-        let insertions = all(document, "insertion", faults);
+        let insertions = columns::insertions(document, &models.columns, faults);
         let outlets = all(document, "outlet", faults);
         let meters = all(document, "flow_meter", faults);
         let domain = document.has("domain").then(|| document.read("domain", faults));
@@ -156,7 +168,7 @@ impl RawTables {
         if faults.count() > 0 {
             return None;
         }
-        let (about, run, gravity, output) = (about?, run?, gravity?, output?);
+        let (about, run, gravity, heat, output) = (about?, run?, gravity?, heat?, output?);
         let domain = domain.flatten();
         Some(Self {
             about,
@@ -169,9 +181,12 @@ impl RawTables {
             clumps,
             particles,
             boundaries,
+            columns: models.columns.clone(),
             hints: models.shapes.iter().map(|row| row.hint).collect(),
             damping,
             forces,
+            heat,
+            heat_sources,
             regions,
             insertions,
             outlets,
@@ -257,6 +272,7 @@ fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law>
         let tangential = model(document, &path, "tangential", &models.tangential, faults);
         let rolling = model(document, &path, "rolling", &models.rolling, faults);
         let cohesion = model(document, &path, "cohesion", &models.cohesion, faults);
+        let heat = model(document, &path, "heat", &models.heat, faults);
         if let (Some(table), Some(normal)) = (table, normal) {
             let law = Law {
                 table,
@@ -264,6 +280,7 @@ fn laws(document: &Document, models: &Models, faults: &mut Faults) -> Named<Law>
                 tangential: tangential.unwrap_or(SMOOTH),
                 rolling: rolling.unwrap_or(ROLLING_FREELY),
                 cohesion: cohesion.unwrap_or(DRY),
+                heat,
             };
             laws.push((name, law));
         }

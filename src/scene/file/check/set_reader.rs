@@ -1,5 +1,6 @@
 //! The particles of one set, before they have numbers.
 
+use super::columns::ByName;
 use super::contacts::unknown_material;
 use super::named_tables::Named;
 use super::place::Place;
@@ -7,11 +8,12 @@ use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::geometry::Lattice;
 use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
+use crate::laws::column::Column;
 use crate::laws::contact::Material;
 use crate::scene::Source;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::file::tables::{ListEntry, ParticlesTable, Triple};
-use crate::scene::import::{self, REPORTED, Request, Rows};
+use crate::scene::import::{self, Bodies, REPORTED, Request, Rows};
 use crate::scene::packing::{self, PackingProgress};
 use crate::scene::{Clump, ClumpShape, Particle, ParticleShape};
 use std::collections::BTreeMap;
@@ -46,10 +48,12 @@ pub(super) struct SetReader<'a> {
     pub(super) shapes: &'a [ClumpShape],
     /// What is written about each of them.
     pub(super) keys: &'a Named<ClumpKeys>,
+    /// Columns that the scene asks for.
+    pub(super) columns: &'a [&'static Column],
 }
 
-/// The particles of a set, the clumps that they are spheres of, their place, and the columns that damping asks for.
-pub(super) type ReadSet = (Vec<Unnumbered>, Vec<Clump>, Place, BTreeMap<String, Vec<f64>>);
+/// The particles of a set, the clumps that they are spheres of, their place, and the columns that damping or the scene asks for.
+pub(super) type ReadSet = (Vec<Unnumbered>, Vec<Clump>, Place, ByName);
 
 impl SetReader<'_> {
     /// Reads the set.
@@ -69,7 +73,7 @@ impl SetReader<'_> {
         }
         let ParticlesTable { list, file, lattice, packing, .. } = self.written;
         if let Some(list) = list {
-            return (self.listed(list, faults), Vec::new(), Place::List, BTreeMap::new());
+            return (self.listed(list, faults), Vec::new(), Place::List, self.listed_columns(faults));
         }
         if let Some(file) = file {
             return self.filed(file, source, extra, faults);
@@ -186,8 +190,12 @@ impl SetReader<'_> {
     pub(super) fn read_file(&self, file: &str, source: &Source, extra: &[String], faults: &mut Faults) -> Option<Rows> {
         let bytes = source.files.get(file)?;
         let ParticlesTable { format, units, timestep, .. } = *self.written;
-        let list = match import::read(bytes, &Request { file, extra, format, units, timestep }) {
-            Ok(rows) => return Some(rows),
+        let bodies = if self.written.clump.is_some() { Bodies::Clumps } else { Bodies::Particles(self.shape) };
+        let list = match import::read(bytes, &Request { file, bodies, extra, format, units, timestep }) {
+            Ok(rows) => {
+                faults.left_out(&self.table, file, &rows.left_out);
+                return Some(rows);
+            }
             Err(list) => list,
         };
         for fault in list {
@@ -260,8 +268,19 @@ impl SetReader<'_> {
             }
             newborn.push(Unnumbered { id: number.map(|number| number as u32), is_of_clump: false, particle });
         }
-        let columns = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        let columns = self.further_columns(file, &mut rows, extra, faults);
         (newborn, Vec::new(), Place::File(file.to_owned(), rows.lines, rows.around), columns)
+    }
+
+    /// What a file has of the columns that damping or the scene asks for.
+    pub(super) fn further_columns(&self, file: &str, rows: &mut Rows, extra: &[String], faults: &mut Faults) -> ByName {
+        let mut columns: ByName = extra.iter().filter_map(|name| rows.columns.remove_entry(name)).collect();
+        let mut report = |row, key: &str, mistake| faults.in_file(file, rows.line(row), &self.table, key, mistake);
+        self.filed_columns(&mut columns, &mut report);
+        for column in self.columns {
+            self.tell_unread_column(column, columns.contains_key(column.name), faults);
+        }
+        columns
     }
 
     /// The material of each label of a file; of the set, if the file has none.
@@ -270,12 +289,11 @@ impl SetReader<'_> {
             if self.written.material.is_none() && rows.count > 0 {
                 self.no_material(faults);
             }
-            if !self.written.materials.is_empty() {
-                let (what, expected) = ("the file names no materials or types", "leave it out");
-                let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
-                faults.add(&self.table, "materials", mistake);
-            }
+            self.refuse_materials(faults);
             return vec![self.fallback(faults)];
+        }
+        for (label, _) in self.written.materials.iter().filter(|(label, _)| !rows.labels.contains(label)) {
+            faults.unread(&self.table, &format!("materials.{label}"), &format!("{file} has none of it"));
         }
         let before = faults.count();
         let mut found = Vec::new();
@@ -301,6 +319,15 @@ impl SetReader<'_> {
             found.push(material);
         }
         found
+    }
+
+    /// Refuses materials by type of a file that has no types.
+    pub(super) fn refuse_materials(&self, faults: &mut Faults) {
+        if !self.written.materials.is_empty() {
+            let (what, expected) = ("the file names no materials or types", "leave it out");
+            let mistake = Mistake::InvalidCombination { what: what.to_owned(), expected: expected.to_owned() };
+            faults.add(&self.table, "materials", mistake);
+        }
     }
 
     /// A particle of which only this is known.

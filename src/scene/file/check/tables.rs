@@ -1,6 +1,6 @@
 //! Tables of motions, from the files that boundaries name.
 
-use crate::base::document::{Faults, Mistake};
+use crate::base::document::{Faults, Mistake, told_columns};
 use crate::laws::motion::{FileKeys, Table, TableKeys};
 use crate::scene::{AxisMotion, Source};
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -37,8 +37,9 @@ fn columns(bytes: &[u8], keys: &FileKeys, word: &str) -> Result<(Vec<u64>, [Vec<
     let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
     let headers = reader.headers().map_err(|error| unreadable(&error))?.clone();
     let place = |name: &str| {
-        let known = headers.iter().collect::<Vec<_>>().join(", ");
-        let missing = || (Some(1), known.clone(), format!("a column {name}"));
+        let known: Vec<String> = headers.iter().map(str::to_owned).collect();
+        let shown = told_columns(&known).unwrap_or_else(|| "a first line without names of columns".to_owned());
+        let missing = || (Some(1), shown.clone(), format!("a column {name}"));
         headers.iter().position(|header| header == name).ok_or_else(missing)
     };
     let chosen = [place(keys.time.as_deref().unwrap_or("time"))?, place(keys.column.as_deref().unwrap_or(word))?];

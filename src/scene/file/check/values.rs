@@ -6,7 +6,7 @@ use crate::base::document::{Faults, Mistake};
 use crate::base::quantity::SetIndex;
 use crate::laws::bond::creation::ListedPairs;
 use crate::scene::file::tables::is_positive_definite;
-use crate::scene::{AxisMotion, Boundary, Insertion, Outlet, OutletPlace, SceneDraft, Step};
+use crate::scene::{AxisMotion, Boundary, ColumnStart, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use std::collections::BTreeSet;
 
 /// Reports every value that its key does not take.
@@ -16,6 +16,7 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     run(draft, &mut at);
     materials(draft, &mut at);
     particles(draft, &mut at);
+    columns(draft, &mut at);
     chosen(draft, &mut at);
     for boundary in &draft.boundaries {
         at.name = format!("boundary.{}", boundary.name);
@@ -237,6 +238,27 @@ fn particles(draft: &SceneDraft, at: &mut Table) {
         if at.faults.count() > before {
             at.wrong("id", format!("{} with such a value", particle.id.0), "particles whose values are permitted");
             break;
+        }
+    }
+}
+
+/// Declared columns have a value that they take for each particle and each insertion.
+fn columns(draft: &SceneDraft, at: &mut Table) {
+    at.name = "particles".to_owned();
+    let mut known = BTreeSet::new();
+    for ColumnStart { column, particles, insertions } in &draft.columns {
+        if !known.insert(column.name) {
+            at.wrong(column.name, "two columns of this name".to_owned(), "a name of its own");
+        }
+        let takes = |value: &&f64| value.is_finite() && (column.takes)(**value);
+        for (table, values, count) in
+            [("particles", particles, draft.particles.len()), ("insertion", insertions, draft.insertions.len())]
+        {
+            at.name = table.to_owned();
+            at.length(column.name, values.len(), count);
+            if let Some(value) = values.iter().find(|value| !takes(value)) {
+                at.wrong(column.name, format!("{value:?}"), column.expected);
+            }
         }
     }
 }

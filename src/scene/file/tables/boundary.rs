@@ -1,7 +1,8 @@
 //! `[boundary.<name>]`
 
 use super::body::{Inertia, Supports};
-use crate::base::quantity::{Positive, Triple};
+use super::heat::TemperatureKey;
+use crate::base::quantity::{Finite, Positive, Triple};
 use crate::laws::motion::{self, InputCourse, NodeMotion};
 use crate::laws::surface::{MakeShape, ShapeRow};
 use crate::scene::exchange::Outside;
@@ -41,4 +42,10 @@ pub(in crate::scene::file) struct BoundaryTable {
     /// Dashpots to the ground.
     #[serde(default)]
     pub(in crate::scene::file) damping: Supports,
+    /// Its temperature.
+    pub(in crate::scene::file) temperature: Option<TemperatureKey>,
+    /// What it takes up \[J/K\].
+    pub(in crate::scene::file) heat_capacity: Option<Positive>,
+    /// Heat flow from the outside into what takes up heat, before another is given \[W\].
+    pub(in crate::scene::file) applied_heat: Option<Finite>,
 }

@@ -2,6 +2,7 @@
 
 mod body;
 mod boundary;
+mod heat;
 mod particles;
 mod values;
 
@@ -10,7 +11,8 @@ pub(super) use crate::laws::surface::Selection;
 pub(in crate::scene) use body::Inertia;
 pub(super) use body::{Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
-pub(super) use particles::{ListEntry, ParticlesTable};
+pub(super) use heat::{HeatSourceTable, HeatTable, TemperatureKey};
+pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
 
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
@@ -23,7 +25,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 21] = [
+pub(in crate::scene::file) const TABLES: [&str; 23] = [
     "about",
     "run",
     "gravity",
@@ -36,6 +38,8 @@ pub(in crate::scene::file) const TABLES: [&str; 21] = [
     "boundary",
     "damping",
     "force",
+    "heat",
+    "heat_source",
     "region",
     "insertion",
     "outlet",
@@ -63,6 +67,8 @@ pub(in crate::scene::file) struct RunTable {
     pub(in crate::scene::file) scheme: Option<Scheme>,
     /// Whether a given step above the stable one may run on.
     pub(in crate::scene::file) allow_unstable: Option<bool>,
+    /// Whether a run stops where the stable step falls below a given one.
+    pub(in crate::scene::file) strict_step: Option<bool>,
     /// Threads.
     pub(in crate::scene::file) threads: Option<NonZeroU32>,
     /// Seed of everything random.
@@ -95,6 +101,12 @@ pub(in crate::scene::file) struct MaterialTable {
     pub(in crate::scene::file) youngs_modulus: Option<Positive>,
     /// Poisson's ratio.
     pub(in crate::scene::file) poissons_ratio: Option<PoissonsRatio>,
+    /// Conductivity \[W/(m K)\].
+    pub(in crate::scene::file) conductivity: Option<Positive>,
+    /// Specific heat \[J/(kg K)\].
+    pub(in crate::scene::file) specific_heat: Option<Positive>,
+    /// Young's modulus of the real bodies \[Pa\].
+    pub(in crate::scene::file) real_youngs_modulus: Option<Positive>,
 }
 
 /// `[contact.<name>]`, without its sub-models.
@@ -120,6 +132,9 @@ pub(in crate::scene::file) struct ContactTable {
     /// Read on its own.
     #[serde(rename = "cohesion")]
     _cohesion: Option<IgnoredAny>,
+    /// Read on its own.
+    #[serde(rename = "heat")]
+    _heat: Option<IgnoredAny>,
 }
 
 /// `[damping.<name>]`

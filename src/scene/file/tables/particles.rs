@@ -11,6 +11,9 @@ use std::collections::BTreeMap;
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene::file) struct ParticlesTable {
+    /// What it says of declared columns, each read by its name.
+    #[serde(skip)]
+    pub(in crate::scene::file) columns: BTreeMap<&'static str, WrittenColumn>,
     /// Material of those that name none.
     pub(in crate::scene::file) material: Option<String>,
     /// Material of each type or material that the file names.
@@ -40,6 +43,15 @@ pub(in crate::scene::file) struct ParticlesTable {
     pub(in crate::scene::file) lattice: Option<LatticeTable>,
     /// A random packing.
     pub(in crate::scene::file) packing: Option<PackingTable>,
+}
+
+/// What a table says of a declared column.
+#[derive(Debug, Default)]
+pub(in crate::scene::file) struct WrittenColumn {
+    /// Value of those that have none of their own.
+    pub(in crate::scene::file) all: Option<f64>,
+    /// Value of each particle of the list that has its own.
+    pub(in crate::scene::file) listed: Vec<Option<f64>>,
 }
 
 /// A particle in a list.

@@ -27,6 +27,8 @@ pub(super) struct AtFeet<'a> {
     pub(super) held: Option<HeldColumns<'a>>,
     /// The surface's material.
     pub(super) material: u32,
+    /// Which share of the heat of losses the surface takes.
+    pub(super) share_of_heat: f64,
     /// The particles.
     pub(super) particles: ParticleLoads<'a>,
 }
@@ -84,6 +86,11 @@ impl Bodies for AtFeet<'_> {
 
     fn row(&self, table: &CoefficientTable, first: u32, _second: u32) -> u32 {
         table.entry(self.particles.material[first as usize], self.material)
+    }
+
+    fn warm(&self, first: u32, _second: u32, heat: f64, load: &mut Load) {
+        // SAFETY: each particle is in one piece, and each piece is worked on by one thread.
+        unsafe { self.particles.warm(first, heat, self.share_of_heat, load) };
     }
 
     #[inline(always)]

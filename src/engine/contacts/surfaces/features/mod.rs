@@ -74,7 +74,8 @@ impl AtSurface {
         // SAFETY: the entries are those of this piece.
         unsafe { entries.flags.part(0, count) }.fill(0);
         let held = at.moving.map(|_| held.columns());
-        let bodies = AtFeet { at, particle, number, foot, weight, held, material: self.material, particles };
+        let (material, share_of_heat) = (self.material, self.share_of_heat);
+        let bodies = AtFeet { at, particle, number, foot, weight, held, material, share_of_heat, particles };
         let load = self.run(&self.batches(bodies, entries, (work.context.step, work.context.width)), 0..count);
         // SAFETY: as above.
         finish(unsafe { entries.flags.part(0, count) }, weight);

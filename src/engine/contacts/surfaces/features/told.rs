@@ -200,6 +200,18 @@ impl AtSurface {
         held
     }
 
+    /// Tells the particle (slot), the overlap \[m\] and the weight of each contact with a feature.
+    pub(in crate::engine::contacts::surfaces) fn touched_at_features(
+        &self,
+        state: &State,
+        tell: &mut dyn FnMut(u32, f64, f64),
+    ) {
+        let list = self.list(state);
+        self.each(state, Motion::Present, |entry, foot, _, ContactGeometry { contact, .. }| {
+            tell(list.particle[entry], contact.overlap, foot.weight);
+        });
+    }
+
     /// Largest overlap with a feature over the radius of the particle.
     pub(in crate::engine::contacts::surfaces) fn largest_overlap(&self, state: &State) -> f64 {
         let mut largest = 0.0_f64;

@@ -1,0 +1,148 @@
+//! Variables of heat: of each boundary that has a temperature, and of the whole.
+
+use super::row::{At, Each, OUTPUT, Present, Row, Write};
+use crate::engine::simulation::Input;
+use crate::engine::state::heat::BoundaryHeat;
+use crate::engine::state::{Heat, State};
+use crate::engine::transfer;
+use crate::interface::{Quantity, Value};
+use crate::scene::{BoundaryTemperature, Scene};
+
+/// An output of each boundary into which heat flows.
+const OF_BOUNDARY: Row = Row { each: Each::Boundary, exists: has_temperature, ..OUTPUT };
+
+/// How a thermal input is given.
+const GIVEN: Option<Write> = Some(Write {
+    set: |simulation, at, value| simulation.set_heat(at.boundary, value),
+    set_rate: |simulation, at, rate| simulation.set_heat_rate(at.boundary, rate),
+    held: |state, at| of_state(state, at).target,
+    start: |scene, at| match scene.boundaries[at.boundary.index()].temperature {
+        BoundaryTemperature::Driven(temperature) => temperature,
+        BoundaryTemperature::Body { applied, .. } => applied,
+        BoundaryTemperature::None | BoundaryTemperature::Held(_) => 0.0,
+    },
+    input: |at| Input::Heat(at.boundary),
+});
+
+/// The temperature of a boundary, as the scene has it.
+fn temperature(scene: &Scene, at: At) -> BoundaryTemperature {
+    scene.boundaries[at.boundary.index()].temperature
+}
+
+/// Whether heat flows into a boundary.
+fn has_temperature(scene: &Scene, at: At) -> bool {
+    scene.has_heat() && transfer::takes_heat(&scene.boundaries[at.boundary.index()])
+}
+
+/// Whether the outside gives its temperature.
+fn is_driven(scene: &Scene, at: At) -> bool {
+    matches!(temperature(scene, at), BoundaryTemperature::Driven(_))
+}
+
+/// Whether it takes up heat.
+fn takes_up(scene: &Scene, at: At) -> bool {
+    matches!(temperature(scene, at), BoundaryTemperature::Body { .. })
+}
+
+/// Whether its temperature is a state.
+fn has_state(scene: &Scene, at: At) -> bool {
+    has_temperature(scene, at)
+        && matches!(temperature(scene, at), BoundaryTemperature::None | BoundaryTemperature::Body { .. })
+}
+
+/// Heat of a boundary.
+fn of_state(state: &State, at: At) -> BoundaryHeat {
+    state.heat.as_ref().map(|heat| heat.boundaries[at.boundary.index()]).unwrap_or_default()
+}
+
+/// The same at the present time.
+fn of(now: Present, at: At) -> BoundaryHeat {
+    of_state(now.simulation.state(), at)
+}
+
+/// A value of the heat of a scene.
+fn whole(now: Present, read: fn(&Heat) -> f64) -> Value {
+    Value::Real(now.simulation.state().heat.as_ref().map_or(0.0, read))
+}
+
+/// Variables of boundaries, inputs first.
+pub(super) static OF_HEATED: [Row; 6] = [
+    Row {
+        name: "temperature",
+        description: "temperature of {boundary}, to be reached at the end of the communication step; at initialisation taken at \
+                      once",
+        quantity: Quantity::Temperature,
+        minimum: Some(0.0),
+        exists: is_driven,
+        write: GIVEN,
+        read: |now, at| Value::Real(of(now, at).target),
+        ..OF_BOUNDARY
+    },
+    Row {
+        name: "applied_heat",
+        description: "heat flow from the outside into {boundary}, without that of the particles; held in a communication step, or \
+                      changing at its rate",
+        quantity: Quantity::HeatFlow,
+        exists: takes_up,
+        write: GIVEN,
+        read: |now, at| Value::Real(of(now, at).target),
+        ..OF_BOUNDARY
+    },
+    Row {
+        name: "temperature",
+        description: "temperature of {boundary}",
+        quantity: Quantity::Temperature,
+        minimum: Some(0.0),
+        follows_inputs_at_start: false,
+        exists: has_state,
+        read: |now, at| Value::Real(of(now, at).temperature()),
+        ..OF_BOUNDARY
+    },
+    Row {
+        name: "heat_flow",
+        description: "heat flow of the particles into {boundary} in the last time step; 0 before the first",
+        quantity: Quantity::HeatFlow,
+        follows_inputs_at_start: false,
+        read: |now, at| Value::Real(of(now, at).flow),
+        ..OF_BOUNDARY
+    },
+    Row {
+        name: "mean_heat_flow",
+        description: "heat flow of the particles into {boundary}, mean over the last communication step",
+        quantity: Quantity::HeatFlow,
+        follows_inputs_at_start: false,
+        read: |now, at| Value::Real(of(now, at).mean_flow),
+        ..OF_BOUNDARY
+    },
+    Row {
+        name: "heat",
+        description: "heat of the particles into {boundary} since the start",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        read: |now, at| Value::Real(of(now, at).heat()),
+        ..OF_BOUNDARY
+    },
+];
+
+/// Variables of the whole.
+pub(super) static OF_HEAT: [Row; 2] = [
+    Row {
+        name: "energy.heat",
+        description: "heat that particles and clumps gained since the start; that of groups counts as their boundary's",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        exists: |scene, _| scene.has_heat(),
+        read: |now, _| whole(now, Heat::energy),
+        ..OUTPUT
+    },
+    Row {
+        name: "energy.heat_residual",
+        description: "heat that particles and clumps gained and gave to boundaries since the start, less what heat sources and \
+                      losses gave: rounding",
+        quantity: Quantity::Energy,
+        follows_inputs_at_start: false,
+        exists: |scene, _| scene.has_heat(),
+        read: |now, _| whole(now, transfer::residual),
+        ..OUTPUT
+    },
+];

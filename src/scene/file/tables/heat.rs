@@ -1,0 +1,132 @@
+//! Temperatures and heat sources, as the scene writes them.
+
+use crate::base::quantity::{Finite, NonNegative, Positive};
+use crate::laws::contact::LossKind;
+use crate::laws::surface::Selection;
+use crate::scene::HeatSettings;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::fmt;
+
+/// `temperature` of a boundary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::scene::file) enum TemperatureKey {
+    /// A number \[K\].
+    Given(f64),
+    /// `"driven"`: from the mean temperature of the particles on.
+    Driven,
+    /// `{ driven = 300.0 }`: from this one on \[K\].
+    DrivenFrom(f64),
+}
+
+impl<'de> Deserialize<'de> for TemperatureKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a number, a word or a table.
+        struct Written;
+        /// `{ driven = 300.0 }`
+        #[derive(Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct From {
+            /// Temperature at the start \[K\].
+            driven: Positive,
+        }
+        /// What is expected.
+        const EXPECTED: &str = "a number above 0 [K], \"driven\", or { driven = .. } with that at the start";
+        impl<'de> Visitor<'de> for Written {
+            type Value = TemperatureKey;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(EXPECTED)
+            }
+            fn visit_f64<E: Error>(self, value: f64) -> Result<TemperatureKey, E> {
+                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
+                Positive::new(value).map(|it| TemperatureKey::Given(it.get())).ok_or_else(refused)
+            }
+            fn visit_i64<E: Error>(self, value: i64) -> Result<TemperatureKey, E> {
+                self.visit_f64(value as f64)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<TemperatureKey, E> {
+                match word {
+                    "driven" => Ok(TemperatureKey::Driven),
+                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
+                }
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TemperatureKey, A::Error> {
+                let from = From::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(TemperatureKey::DrivenFrom(from.driven.get()))
+            }
+        }
+        deserializer.deserialize_any(Written)
+    }
+}
+
+/// `[heat]`
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene::file) struct HeatTable {
+    /// Whether heat flows while nothing moves.
+    #[serde(default)]
+    frozen: bool,
+    /// Losses that warm the bodies.
+    #[serde(default)]
+    from_losses: Vec<WarmingLoss>,
+}
+
+impl HeatTable {
+    /// What it says.
+    pub(in crate::scene::file) fn settings(&self) -> HeatSettings {
+        let mut settings = HeatSettings { frozen: self.frozen, ..HeatSettings::default() };
+        for loss in &self.from_losses {
+            settings.from_losses[loss.kind() as usize] = true;
+        }
+        settings
+    }
+}
+
+/// A loss of contacts that is heat at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum WarmingLoss {
+    /// Dashpots along the normal.
+    NormalDamping,
+    /// Dashpots in the tangent plane.
+    TangentialDamping,
+    /// Friction at its limit.
+    Sliding,
+    /// Work against rolling torque.
+    Rolling,
+}
+
+impl WarmingLoss {
+    /// Its kind.
+    fn kind(self) -> LossKind {
+        match self {
+            Self::NormalDamping => LossKind::Normal,
+            Self::TangentialDamping => LossKind::Tangential,
+            Self::Sliding => LossKind::Sliding,
+            Self::Rolling => LossKind::Rolling,
+        }
+    }
+}
+
+/// `[heat_source.<name>]`
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene::file) struct HeatSourceTable {
+    /// The particles.
+    pub(in crate::scene::file) particles: Selection,
+    /// Heat flow into each \[W\].
+    pub(in crate::scene::file) power: Option<Finite>,
+    /// Surroundings with which each exchanges heat.
+    pub(in crate::scene::file) ambient: Option<AmbientTable>,
+}
+
+/// `ambient` of a heat source.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene::file) struct AmbientTable {
+    /// Their temperature \[K\].
+    pub(in crate::scene::file) temperature: Positive,
+    /// Conductance to each particle \[W/K\].
+    pub(in crate::scene::file) conductance: NonNegative,
+}
