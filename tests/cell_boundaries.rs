@@ -276,6 +276,21 @@ fn a_rigid_body_that_flies_and_turns_through_the_faces_does_what_it_does_in_the_
 }
 
 #[test]
+fn a_force_on_a_sphere_of_a_group_turns_it_through_the_faces_as_in_the_open() {
+    let mut list = Vec::new();
+    for [x, y, z] in [[0.0, 0.0, 0.0], [0.005, 0.0, 0.0], [0.0, 0.004, 0.0], [0.0, 0.0, 0.005]] {
+        list.push([[0.03 + x, 0.02 + y, 0.003 + z], [1.0, 0.4, -0.6], [0.0; 3]]);
+    }
+    let rest = "[force.push]\nparticles = { ids = [2] }\nforce = [0.0, 0.02, 0.01]\n\
+                [damping.all]\nlinear = 0.1\nangular = 0.2\ngravity_damped = true\napplied_forces_damped = true\n\
+                [boundary.body]\nparticles = { box = [[0.025, 0.0, 0.0], [0.037, 0.03, 0.03]] }\n\
+                motion = { free = [\"x\", \"y\", \"z\", \"rotation.x\", \"rotation.y\", \"rotation.z\"] }\n";
+    let text = |more: &str| scene(&list, &(rest.to_owned() + more)).replace("-9.81", "0.0");
+    let closed = start_with(&text(&cell(leaning(), "[\"x\", \"y\", \"z\"]")), Files::new());
+    assert!(assert_alike(closed, start_with(&text(""), Files::new()), 10, 1e-9) >= 4);
+}
+
+#[test]
 fn the_books_of_a_rigid_body_astride_a_face_close_and_its_stable_step_is_that_of_one_that_is_not() {
     let text = |shift: f64| {
         let mut list = vec![[[0.022 + shift, 0.0215, 0.013], [0.1, 0.0, -1.0], [0.0; 3]]];

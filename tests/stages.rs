@@ -42,38 +42,41 @@ spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 
 material = "a"
 temperature = 300.0
 clump = "pair"
-list = [{ position = [0.0, 0.02, 0.0018], velocity = [0.1, 0.0, 0.0] }]
+list = [{ position = [0.0, 0.02, 0.00195], velocity = [0.1, 0.0, 0.0] }]
+[particles.loose]
+material = "a"
+list = [{ position = [0.0056, 0.02, 0.00195], radius = 0.002 }]
 [particles.rods]
 material = "a"
 temperature = 300.0
 list = [
-    { position = [0.0, 0.0, 0.0019], radius = 0.002, velocity = [0.0, 0.0, -0.2] },
-    { position = [0.004, 0.0, 0.0019], radius = 0.002 },
-    { position = [0.008, 0.0, 0.0019], radius = 0.002, velocity = [0.4, 0.0, 0.0] },
+    { position = [0.0, 0.0, 0.00195], radius = 0.002, velocity = [0.0, 0.0, -0.2] },
+    { position = [0.004, 0.0, 0.00195], radius = 0.002 },
+    { position = [0.008, 0.0, 0.00195], radius = 0.002, velocity = [0.4, 0.0, 0.0] },
 ]
 [particles.stone]
 material = "a"
 temperature = 350.0
 list = [
-    { position = [0.02, 0.0, 0.0019], radius = 0.002, velocity = [0.0, 0.1, -0.1] },
-    { position = [0.02, 0.004, 0.0019], radius = 0.002 },
+    { position = [0.02, 0.0, 0.00195], radius = 0.002, velocity = [0.0, 0.1, -0.1] },
+    { position = [0.02, 0.004, 0.00195], radius = 0.002 },
 ]
 [bond.glue]
 between = ["rods", "rods"]
 create_distance = 0.0041
-normal_stiffness = 1e10
-tangential_stiffness = 4e9
+normal_stiffness = 1e8
+tangential_stiffness = 4e7
 contact = "none"
 [bond.glue.breakage]
 max_distance = 0.00405
 [damping.rods]
-particles = ["rods"]
+particles = { set = "rods" }
 linear = 0.1
 angular = 0.1
 gravity_damped = false
 applied_forces_damped = false
 [force.wind]
-particles = ["rods"]
+particles = { set = "rods" }
 force = [1e-4, 0.0, 0.0]
 [boundary.stone]
 particles = { set = "stone" }
@@ -108,16 +111,19 @@ spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 
 material = "a"
 temperature = 300.0
 clump = "pair"
-list = [{ position = [0.004, 0.008, 0.004], velocity = [0.1, 0.0, 0.0] }]
+list = [{ position = [0.004, 0.008, 0.004], velocity = [0.1, 0.0, 0.2] }]
 [particles.balls]
 material = "a"
 temperature = 300.0
 list = [
-    { position = [0.002, 0.002, 0.002], radius = 0.002, velocity = [-0.3, 0.0, 0.0] },
-    { position = [0.006, 0.002, 0.002], radius = 0.002 },
+    { position = [0.002, 0.002, 0.002], radius = 0.002, velocity = [0.3, 0.0, 0.0] },
+    { position = [0.0064, 0.002, 0.002], radius = 0.002 },
+    { position = [0.001, 0.008, 0.0095], radius = 0.002 },
+    { position = [0.00905, 0.008, 0.0095], radius = 0.002 },
 ]
 [bond.glue]
 between = ["balls", "balls"]
+create = "always"
 create_distance = 0.0041
 normal_stiffness = 1e9
 tangential_stiffness = 4e8
@@ -198,6 +204,8 @@ step = 1e-5
 density = 2500.0
 youngs_modulus = 1e7
 poissons_ratio = 0.25
+[pair.a.a]
+restitution = 0.6
 [contact.all.normal.hertz]
 [particles.a]
 material = "a"
@@ -217,7 +225,7 @@ fn a_scene_in_the_open_and_one_in_a_cell_have_every_stage() {
 }
 
 #[test]
-fn a_stage_writes_what_it_says_and_nothing_else() {
+fn a_stage_writes_nothing_that_it_does_not_say() {
     let mut found = written(with_laws(OPEN), 600);
     found.extend(written(with_laws(CELL), 200));
     let said: BTreeSet<_> = all_stages()
@@ -225,8 +233,12 @@ fn a_stage_writes_what_it_says_and_nothing_else() {
         .collect();
     let unsaid: Vec<_> = found.difference(&said).collect();
     assert!(unsaid.is_empty(), "written without a word: {unsaid:?}");
-    let never: Vec<_> = said.difference(&found).collect();
-    assert!(never.len() < 12, "said, and never written: {never:?}");
+    let wrote = |name: &str| found.iter().any(|(stage, _)| *stage == name);
+    // What the first stage of a step writes is not looked at.
+    let silent: Vec<_> =
+        all_stages().skip(1).map(|(_, stage)| stage).filter(|stage| !stage.writes.is_empty()).collect();
+    let silent: Vec<_> = silent.into_iter().map(|stage| stage.name).filter(|name| !wrote(name)).collect();
+    assert!(silent.is_empty(), "never at work: {silent:?}");
 }
 
 /// The list of the stages as a table of the docs.

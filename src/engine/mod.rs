@@ -1,10 +1,10 @@
 //! The state, and how a time step changes it.
 
 pub mod averages;
+pub(crate) mod bodies;
 pub(crate) mod bonds;
 pub(crate) mod boundaries;
 pub(crate) mod cell;
-pub(crate) mod clumps;
 pub(crate) mod columns;
 pub(crate) mod contacts;
 pub(crate) mod energy;

@@ -3,6 +3,7 @@
 mod frame;
 pub mod lattice;
 pub mod orientation;
+pub(crate) mod principal;
 pub(crate) mod rotation;
 
 pub(crate) use frame::Frame;

@@ -5,8 +5,8 @@ mod probes;
 pub use probes::{Sight, sights};
 
 use crate::base::number::Vector;
+use crate::engine::bodies::loads;
 use crate::engine::cell::near::{self, Place};
-use crate::engine::clumps;
 use crate::engine::simulation::{ContactRecord, Simulation};
 use crate::engine::state::State;
 use crate::engine::state::contacts::is_told;
@@ -162,7 +162,7 @@ fn content(region: &Region, simulation: &Simulation) -> Content {
         let part = |centre: Vector| volume += region.shape.volume_of_sphere(centre - shift, radius);
         place.meets(position.into(), radius, part);
         if volume > 0.0 {
-            let mass = clumps::mass_of(scene, (particles, &state.clumps), slot) * (volume / sphere_volume(radius));
+            let mass = loads::mass_of(scene, (particles, &state.clumps), slot) * (volume / sphere_volume(radius));
             content.solid +=
                 volume * state.clump(slot).map_or(1.0, |clump| fullness[state.clumps.shape[clump] as usize]);
             content.mass += mass;

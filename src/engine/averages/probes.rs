@@ -3,7 +3,7 @@
 use crate::base::geometry::Lattice;
 use crate::base::number::Vector;
 use crate::base::quantity::{ParticleId, SetIndex};
-use crate::engine::clumps;
+use crate::engine::bodies::loads;
 use crate::engine::simulation::Simulation;
 use crate::engine::transfer;
 use crate::scene::Probed;
@@ -67,7 +67,7 @@ fn particle(simulation: &Simulation, slot: usize) -> Sight {
         position: simulation.state().unwrapped(slot),
         velocity: three(particles.velocity[slot]),
         angular_velocity: three(particles.angular_velocity[slot]),
-        force: clumps::force_on(simulation.scene(), particles, slot),
+        force: loads::force_on(simulation.scene(), particles, slot),
         torque: three(particles.torque[slot]),
         temperature: transfer::temperature(simulation.state(), slot).unwrap_or(0.0),
         ..Sight::default()
@@ -105,8 +105,8 @@ fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
     let members = (0..).zip(&scene.particles).filter(|(_, particle)| particle.set == set);
     for slot in members.filter_map(|(index, _)| particles.slot_of(index)) {
         let Some(temperature) = transfer::temperature(simulation.state(), slot) else { break };
-        let own = clumps::mass_of(scene, (particles, clumps), slot)
-            * transfer::specific_heat(scene, simulation.state(), slot);
+        let own =
+            loads::mass_of(scene, (particles, clumps), slot) * transfer::specific_heat(scene, simulation.state(), slot);
         heat += own * temperature;
         capacity += own;
     }

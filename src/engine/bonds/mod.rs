@@ -18,8 +18,7 @@ use crate::base::number::Vector;
 use crate::base::quantity::SetIndex;
 use crate::base::threads::Context;
 use crate::engine::contacts::BondRecord;
-use crate::engine::contacts::Pass;
-use crate::engine::contacts::{Kind, Link, SearchLimits};
+use crate::engine::contacts::{Kind, Link, Pass, SearchLimits, Stiffness, Telling};
 use crate::engine::neighbours::PairCache;
 use crate::engine::neighbours::bonds::is_bonded;
 use crate::engine::neighbours::near_pairs;
@@ -131,7 +130,7 @@ impl BondPass {
             let ids = [particles.id[a as usize], particles.id[b as usize]];
             if near_pair(distance, self.create_distance)
                 && !are_images(particles, a, b)
-                && !state.are_of_one_clump(a, b)
+                && !state.are_of_one_body(a, b)
                 && self.may_bond(ids[0], ids[1])
                 && !is_bonded(list, a, b)
             {
@@ -239,6 +238,20 @@ impl Pass for BondPass {
         Source::Bonds
     }
 
+    fn let_go(&self, state: &mut State, goes: &[bool], step: f64) -> f64 {
+        let list = &state.bonds[self.index];
+        let any = |bond: &usize| goes[list.first[*bond] as usize] || goes[list.second[*bond] as usize];
+        let gone = (0..list.first.len()).filter(any).map(|bond| {
+            let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
+            powers(list, bond, &pair_of(&state.particles, i, j), &self.carried(state, bond))
+        });
+        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
+        state.bonds[self.index].damped += damped;
+        given
+    }
+}
+
+impl Stiffness for BondPass {
     fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         let (list, particles) = (&state.bonds[self.index], &state.particles);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
@@ -252,21 +265,11 @@ impl Pass for BondPass {
             tell(link_of(&self.law, &pair, (i, Some(j), None), Kind::ComingBond));
         }
     }
+}
 
+impl Telling for BondPass {
     fn elastic_energy(&self, state: &State) -> f64 {
         (0..state.bonds[self.index].first.len()).map(|bond| self.carried(state, bond).energy).sum()
-    }
-
-    fn let_go(&self, state: &mut State, goes: &[bool], step: f64) -> f64 {
-        let list = &state.bonds[self.index];
-        let any = |bond: &usize| goes[list.first[*bond] as usize] || goes[list.second[*bond] as usize];
-        let gone = (0..list.first.len()).filter(any).map(|bond| {
-            let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
-            powers(list, bond, &pair_of(&state.particles, i, j), &self.carried(state, bond))
-        });
-        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
-        state.bonds[self.index].damped += damped;
-        given
     }
 
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {

@@ -8,10 +8,9 @@ use crate::base::lanes::Shared;
 use crate::base::number::{Vector, add};
 use crate::base::quantity::{BoundaryIndex, SetIndex};
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::RigidBody;
 use crate::engine::contacts::BondRecord;
-use crate::engine::contacts::Pass;
-use crate::engine::contacts::{Kind, Link, SearchLimits};
+use crate::engine::contacts::{Kind, Link, Pass, SearchLimits, Stiffness, Telling};
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{BoundaryState, Particles, Row, State, StateFault};
@@ -309,6 +308,18 @@ impl Pass for WallBondPass {
         Source::Bonds
     }
 
+    fn let_go(&self, state: &mut State, goes: &[bool], step: f64) -> f64 {
+        let list = &state.bonds[self.index];
+        let any = |bond: &usize| goes[list.first[*bond] as usize];
+        let gone = (0..list.first.len()).filter(any);
+        let gone = gone.map(|bond| powers(list, bond, &self.pair(state, bond), &self.carried(state, bond)));
+        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
+        state.bonds[self.index].damped += damped;
+        given
+    }
+}
+
+impl Stiffness for WallBondPass {
     fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         for (bond, &first) in state.bonds[self.index].first.iter().enumerate() {
             let pair = self.pair(state, bond);
@@ -325,17 +336,9 @@ impl Pass for WallBondPass {
             tell(link_of(&self.law, &pair, (slot, None, Some(self.boundary.0)), Kind::ComingBond));
         }
     }
+}
 
-    fn let_go(&self, state: &mut State, goes: &[bool], step: f64) -> f64 {
-        let list = &state.bonds[self.index];
-        let any = |bond: &usize| goes[list.first[*bond] as usize];
-        let gone = (0..list.first.len()).filter(any);
-        let gone = gone.map(|bond| powers(list, bond, &self.pair(state, bond), &self.carried(state, bond)));
-        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
-        state.bonds[self.index].damped += damped;
-        given
-    }
-
+impl Telling for WallBondPass {
     fn bonds(&self, state: &State, tell: &mut dyn FnMut(BondRecord)) {
         let list = &state.bonds[self.index];
         for (bond, &slot) in list.first.iter().enumerate() {

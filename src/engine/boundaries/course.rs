@@ -2,7 +2,7 @@
 
 use crate::base::geometry::{Quaternion, rotation};
 use crate::base::number::Vector;
-use crate::engine::boundaries::{RigidBody, Turning};
+use crate::engine::bodies::{RigidBody, Turning};
 use crate::engine::run_error::RunError;
 use crate::engine::state::boundaries::Inertial;
 use crate::engine::state::{BoundaryState, Orientation, State};

@@ -1,9 +1,8 @@
 //! What boundaries feel in a time step: loads, and the impulses and the work that follow from them.
 
 use super::course::BoundaryTravel;
-use super::rigid_body::came_to;
-use crate::base::number::Vector;
-use crate::engine::state::{BoundaryState, Particles, State};
+use crate::engine::bodies::loads::on_members;
+use crate::engine::state::{BoundaryState, State};
 use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::Scene;
 
@@ -36,15 +35,7 @@ pub(crate) fn sum_groups(scene: &Scene, state: &mut State) {
         if members.is_empty() {
             continue;
         }
-        let (mut force, mut moment) = (Vector::zero(), Vector::zero());
-        for &member in members {
-            let slot = particles.slot[member as usize] as usize;
-            let Particles { position, force: loads, torque, .. } = &*particles;
-            let place = came_to(cell.as_ref(), member, Vector::from(position[slot]));
-            let (load, arm) = (Vector::from(loads[slot]), place - moved.pivot.into());
-            force += load;
-            moment += arm.cross(load) + Vector::from(torque[slot]);
-        }
+        let [force, moment] = on_members(members, moved.pivot.into(), particles, cell.as_ref());
         moved.force = force.to_array();
         moved.moment = moment.to_array();
     }

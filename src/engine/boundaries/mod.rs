@@ -1,11 +1,7 @@
 //! Boundaries during a time step: their motion, prescribed or as rigid bodies that forces move; and the loads on them.
 
 pub(crate) mod course;
-mod inertia;
 pub(crate) mod loads;
 pub(crate) mod nodes;
 pub(crate) mod passing;
 pub(crate) mod placing;
-pub(crate) mod rigid_body;
-
-pub(crate) use rigid_body::{RigidBody, Turning};

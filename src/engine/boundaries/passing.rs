@@ -84,7 +84,7 @@ impl Passing {
     fn origin(&self, boundaries: &[BoundaryState], particles: MovedParticles, slot: usize) -> Vector {
         let centre = Vector::from(particles.position[slot]);
         match particles.owner[slot] {
-            // A sphere of a clump, or of a group in a cell, was there to the second order of the step.
+            // A sphere of another body, or of a group in a cell, was there to the second order of the step.
             owner if owner == 0 || owner as usize > boundaries.len() || self.in_cell => {
                 centre - Vector::from(particles.velocity[slot]) * particles.step
             }

@@ -21,7 +21,7 @@ pub use stress::Fabric;
 
 use crate::base::number::Row;
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::clumps::{self, ClumpBodies};
+use crate::engine::bodies::clumps::{self, ClumpBodies};
 use crate::engine::integration::Rows;
 use crate::engine::run_error::RunError;
 use crate::engine::state::cell::{CellState, Square, Strains};

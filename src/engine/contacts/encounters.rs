@@ -7,8 +7,8 @@
 use super::listed::{Bodies, ContactEntries};
 use super::records::Motion;
 use crate::base::number::Vector;
+use crate::engine::bodies::RigidBody;
 use crate::engine::bonds::clusters::{self, Clusters};
-use crate::engine::boundaries::RigidBody;
 use crate::engine::integration::Fields;
 use crate::engine::state::contacts::{TOUCHING, is_suppressed};
 use crate::engine::state::{State, WallContacts};
@@ -45,7 +45,7 @@ pub(crate) struct Energies {
 
 /// What is looked at, and what was found.
 pub(crate) struct Encounters<'a> {
-    /// How many contacts each body has, up to 2: particles by slot, behind them boundaries, then clumps.
+    /// How many contacts each body has, up to 2: particles by slot, behind them the other bodies.
     contacts: Vec<u8>,
     /// Bodies that bonds hold together, where any do.
     clusters: Option<&'a Clusters>,

@@ -15,5 +15,5 @@ pub(crate) mod surfaces;
 pub(crate) use ahead::{FASTER, Frame, Kind, Link, Meeting, SearchLimits};
 pub(crate) use encounters::Encounters;
 pub(crate) use listed::SLIGHT;
-pub(crate) use pass::{Pass, SurfaceTouch};
+pub(crate) use pass::{Pass, Stiffness, SurfaceTouch, Telling};
 pub use records::{BondRecord, ContactRecord, PlacedSpring};

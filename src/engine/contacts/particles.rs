@@ -6,7 +6,7 @@
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed::{self, ContactEntries, CurrentContact, ListColumns};
 use super::pairs::Pairs;
-use super::pass::Pass;
+use super::pass::{Pass, Stiffness, Telling};
 use super::records::{ContactRecord, Motion};
 use crate::base::lanes::Shared;
 use crate::base::threads::Context;
@@ -76,7 +76,9 @@ impl Pass for ContactPass {
             }));
         }
     }
+}
 
+impl Stiffness for ContactPass {
     fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         listed::stiffness(self, state, ahead, tell);
     }
@@ -101,7 +103,9 @@ impl Pass for ContactPass {
     fn encounters(&self, state: &State, found: &mut Encounters) {
         encounters::of_list(self, state, found);
     }
+}
 
+impl Telling for ContactPass {
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
         listed::records(self, state, step, tell);
     }

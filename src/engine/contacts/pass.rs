@@ -26,8 +26,8 @@ pub(crate) struct SurfaceTouch {
     pub weight: f64,
 }
 
-/// One kind of interaction, composed for the scene.
-pub(crate) trait Pass: Send + Sync {
+/// One kind of interaction, composed for the scene: its forces.
+pub(crate) trait Pass: Stiffness + Telling + Send + Sync {
     /// Adds its forces and torques to the particles and its loads to the boundaries. An error tells of a state
     /// that must not be continued from; the evaluation is complete all the same.
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError>;
@@ -62,6 +62,15 @@ pub(crate) trait Pass: Send + Sync {
     /// The kind of force it is, for the energy book.
     fn source(&self) -> Source;
 
+    /// Books what bonds of particles (slots) that go did in the first half of the present time step \[s\]. Returns the elastic energy
+    /// that they gave in it: their force acted as long \[J\].
+    fn let_go(&self, _state: &mut State, _goes: &[bool], _step: f64) -> f64 {
+        0.0
+    }
+}
+
+/// How stiff an interaction is or may get: for the stable and the automatic time step.
+pub(crate) trait Stiffness {
     /// Tells the stiffness of each interaction at work or, where `ahead` looks further, as stiff as each may get: for the
     /// stable time step.
     fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link));
@@ -76,7 +85,10 @@ pub(crate) trait Pass: Send + Sync {
 
     /// Adds the energies of contacts at work and of those to come until the lists are made anew.
     fn encounters(&self, _state: &State, _found: &mut Encounters) {}
+}
 
+/// What an interaction tells when it is asked. Changes nothing.
+pub(crate) trait Telling {
     /// Tells each contact at work as it was in the last evaluation. Changes nothing.
     fn contacts(&self, _state: &State, _step: f64, _tell: &mut dyn FnMut(ContactRecord)) {}
 
@@ -87,12 +99,6 @@ pub(crate) trait Pass: Send + Sync {
 
     /// Elastic energy at the present time, as far as it has a closed form \[J\].
     fn elastic_energy(&self, state: &State) -> f64;
-
-    /// Books what bonds of particles (slots) that go did in the first half of the present time step \[s\]. Returns the elastic energy
-    /// that they gave in it: their force acted as long \[J\].
-    fn let_go(&self, _state: &mut State, _goes: &[bool], _step: f64) -> f64 {
-        0.0
-    }
 
     /// Energy at the present time of rolling springs, of sticky and of plastic normal forces \[J\]: for a book of losses.
     fn held_energy(&self, _state: &State) -> [f64; 3] {

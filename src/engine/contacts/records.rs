@@ -1,7 +1,7 @@
 //! Records of the present contacts and bonds, for outputs.
 
 use crate::base::number::Vector;
-use crate::engine::clumps;
+use crate::engine::bodies::kick_at;
 use crate::engine::state::contacts::SLIDING;
 use crate::engine::state::{BoundaryState, History, Row, State};
 use crate::laws::bond::BondLoads;
@@ -112,22 +112,10 @@ impl Motion {
             velocity.iter_mut().zip(stream).for_each(|(sum, part)| *sum += part);
         }
         let Self::HalfStepBack(step) = self else { return (velocity, spin) };
-        let group = particles.group(original);
-        if let Some(clump) = group.and_then(|group| group.checked_sub(state.boundaries.len())) {
-            let [kick, twist] = clumps::last_kick(&state.clumps, clump, step);
-            let arm = Vector::from(particles.position[original]) - state.clumps.position[clump].into();
-            let (kick, twist) = ((kick + twist.cross(arm)).to_array(), twist.to_array());
+        if let Some([kick, twist]) = kick_at(state, original, step).map(|kick| kick.map(Vector::to_array)) {
             for axis in 0..3 {
                 velocity[axis] -= kick[axis];
                 spin[axis] -= twist[axis];
-            }
-        } else if let Some(group) = group {
-            let moved = &state.boundaries[group];
-            let arm = Vector::from(state.unwrapped(original)) - moved.pivot.into();
-            let turned = Vector::from(moved.inertial.spin_kick).cross(arm).to_array();
-            for axis in 0..3 {
-                velocity[axis] -= moved.inertial.kick[axis] + turned[axis];
-                spin[axis] -= moved.inertial.spin_kick[axis];
             }
         } else {
             for axis in 0..3 {

@@ -1,10 +1,8 @@
 //! The physical energy book: what is not found contact by contact or bond by bond.
 
-use super::bodies;
 use crate::base::number::Vector;
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::{RigidBody, book};
 use crate::engine::integration::Fields;
-use crate::engine::state::ledger::Source;
 use crate::engine::state::{Loss, Losses, State};
 
 /// Potential of gravity and applied forces on the particles and clumps that move by the forces on them \[J\].
@@ -33,21 +31,7 @@ pub(crate) fn begin_step(state: &mut State, fields: &Fields, bodies: &[Option<Ri
     if let Some(losses) = &mut state.losses {
         let [power, growth] = losses.braking;
         losses.add(Loss::GlobalDamping, step * (power + step * growth));
-        book_bodies(state, fields, bodies, step);
-    }
-}
-
-/// Books what the outside and global damping do to bodies in the half kick that is about to be made.
-pub(crate) fn book_bodies(state: &mut State, fields: &Fields, bodies: &[Option<RigidBody>], step: f64) {
-    let Some(losses) = &mut state.losses else { return };
-    let nothing = [const { Vec::new() }; Source::PASSES];
-    for (number, (body, moved)) in bodies.iter().zip(&state.boundaries).enumerate() {
-        let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
-        let work = bodies::work((number, body), moved, &state.particles, &nothing, fields, step);
-        let of = |source: Source| work[source as usize];
-        let given = [Source::Gravity, Source::Applied, Source::Support];
-        losses.given_to_bodies += given.into_iter().map(of).sum::<f64>();
-        losses.add(Loss::GlobalDamping, -of(Source::Damping));
+        book::book_losses(state, fields, bodies, step);
     }
 }
 

@@ -1,23 +1,18 @@
 //! Kinetic energy, and the energy books for the scenes that ask for them.
 
 mod between;
-mod bodies;
 pub(crate) mod losses;
 pub(crate) mod work;
 
 pub(crate) use between::PendingWork;
-pub(crate) use bodies::note as note_on_bodies;
 
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::boundaries::RigidBody;
-use crate::engine::clumps;
+use crate::engine::bodies::{self, RigidBody};
 use crate::engine::state::{Particles, Row, State};
 
-/// Kinetic energy of the particles, groups and clumps that move by the forces on them \[J\].
+/// Kinetic energy of the particles and bodies that move by the forces on them \[J\].
 pub(crate) fn kinetic(state: &State, bodies: &[Option<RigidBody>], context: &Context) -> f64 {
-    let groups = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| Some(body.as_ref()?.kinetic(moved)));
-    let particles = groups.fold(of_particles(&state.particles, context), |sum, group| sum + group);
-    if state.clumps.is_empty() { particles } else { particles + clumps::kinetic(&state.clumps) }
+    of_particles(&state.particles, context) + bodies::kinetic(bodies, state)
 }
 
 /// Kinetic energy of the particles that move by the forces on them \[J\].

@@ -5,10 +5,10 @@
 //! for both the powers Σ F_k · v and how fast they grow, Σ F_k · a.
 
 use super::between::PendingWork;
-use super::{bodies, dot, multiply, plus, row};
+use super::{dot, multiply, plus, row};
 use crate::base::lanes::{self, Kernel, Lane};
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::{RigidBody, book};
 use crate::engine::integration::Fields;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Particles, Row, State};
@@ -21,7 +21,7 @@ pub(crate) fn book_first(state: &mut State, fields: &Fields, bodies: &[Option<Ri
         ledger.work[source] += half * (ledger.power[source] + 0.5 * half * ledger.growth[source]);
     }
     ledger.turnover += half * ledger.power_turned_over;
-    book_bodies(state, fields, bodies, step);
+    book::book_work(state, fields, bodies, step);
 }
 
 /// Books the half kick that ends a step, about to be made with the present loads and with gravity \[m/s²\] where
@@ -34,7 +34,7 @@ pub(crate) fn book_second(
     context: &Context,
 ) {
     book_particles(state, between, (fields, gravity), context);
-    book_bodies(state, fields, bodies, context.step);
+    book::book_work(state, fields, bodies, context.step);
 }
 
 /// Books the second half kick of the particles.
@@ -70,19 +70,6 @@ fn book_particles(
     }
     ledger.power_turned_over = turned_over;
     ledger.turnover += half * turned_over;
-}
-
-/// Books what forces do to bodies in the half kick that is about to be made.
-pub(crate) fn book_bodies(state: &mut State, fields: &Fields, bodies: &[Option<RigidBody>], step: f64) {
-    let State { particles, boundaries, ledger: Some(ledger), .. } = state else { return };
-    for (number, (body, moved)) in bodies.iter().zip(&*boundaries).enumerate() {
-        let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
-        let works = bodies::work((number, body), moved, particles, &ledger.on_bodies, fields, step);
-        for (sum, work) in ledger.work.iter_mut().zip(works) {
-            *sum += work;
-            ledger.turnover += work.abs();
-        }
-    }
 }
 
 /// Powers of each kind of force on particles, and how fast they grow.

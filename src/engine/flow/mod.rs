@@ -13,8 +13,8 @@ mod passed;
 mod places;
 
 use crate::base::number::Vector;
+use crate::engine::bodies::ClumpBodies;
 use crate::engine::boundaries::passing::Passing;
-use crate::engine::clumps::ClumpBodies;
 use crate::engine::integration::Fields;
 use crate::engine::run_error::RunError;
 use crate::engine::state::State;

@@ -4,7 +4,7 @@ use super::occupied::Occupied;
 use super::{WHOLE, book, cost, is_owed};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
-use crate::engine::clumps::{self, ClumpBodies};
+use crate::engine::bodies::clumps::{self, ClumpBodies};
 use crate::engine::columns;
 use crate::engine::integration::Fields;
 use crate::engine::run_error::RunError;

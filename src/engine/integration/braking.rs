@@ -8,15 +8,15 @@ pub(crate) struct Damping(pub(super) Vec<Damped>, pub(super) [Damped; 2], pub(su
 
 /// Cundall's damping of one particle.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Damped {
+pub(crate) struct Damped {
     /// Fraction of the force.
-    pub(super) linear: f64,
+    pub(crate) linear: f64,
     /// Fraction of the torque.
-    pub(super) angular: f64,
+    pub(crate) angular: f64,
     /// Whether gravity is damped.
-    pub(super) gravity: bool,
+    pub(crate) gravity: bool,
     /// Whether applied forces are damped.
-    pub(super) applied: bool,
+    pub(crate) applied: bool,
 }
 
 /// What damping takes from a component of a load: a fraction that lowers its power, also at rest.
@@ -26,7 +26,7 @@ pub(super) fn brake(fraction: f64, load: f64, velocity: f64) -> f64 {
 }
 
 /// What damping adds to a load, component by component.
-pub(super) fn brakes(fraction: f64, load: Vector, velocity: [f64; 3]) -> [f64; 3] {
+pub(crate) fn brakes(fraction: f64, load: Vector, velocity: [f64; 3]) -> [f64; 3] {
     let load = load.to_array();
     [0, 1, 2].map(|axis| -brake(fraction, load[axis], velocity[axis]))
 }

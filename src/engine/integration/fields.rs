@@ -1,13 +1,11 @@
 //! Gravity, applied forces and Cundall's global damping.
 
 use super::Rows;
-use super::braking::{Damped, brake, brakes, taken};
-use crate::base::geometry::Quaternion;
+use super::braking::{Damped, brake, taken};
 use crate::base::lanes::Shared;
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::boundaries::RigidBody;
-use crate::engine::state::{BoundaryState, Loss, Particles, Row, State};
+use crate::engine::state::{Loss, Particles, Row, State};
 use crate::scene::Scene;
 
 /// Force \[N\] and moment about the reference point of a group \[N m\].
@@ -70,18 +68,15 @@ impl Fields {
         [1.0 + damped.linear, 1.0 + damped.angular]
     }
 
-    /// These factors of a body that forces move.
-    pub(crate) fn amplification_of(&self, body: &RigidBody) -> [f64; 2] {
-        let damped = self.of_body(body);
+    /// These factors of a body of these particles; of none where it is a surface.
+    pub(crate) fn amplification_of(&self, members: &[u32]) -> [f64; 2] {
+        let damped = self.of_body(members);
         [1.0 + damped.linear, 1.0 + damped.angular]
     }
 
-    /// Damping of a body: the spheres of a group are damped alike.
-    fn of_body(&self, body: &RigidBody) -> Damped {
-        match body.members.first() {
-            Some(&member) => self.damped(member),
-            None => self.surfaces,
-        }
+    /// Damping of a body: the spheres of one are damped alike.
+    pub(crate) fn of_body(&self, members: &[u32]) -> Damped {
+        members.first().map_or(self.surfaces, |&member| self.damped(member))
     }
 
     /// Largest acceleration that gravity and applied forces give a particle \[m/s²\].
@@ -169,73 +164,6 @@ impl Fields {
         [x, y, z]
     }
 
-    /// Puts the whole load on each body that forces move: that of the particles, weight, applied forces, springs and dashpots to
-    /// the ground, and damping.
-    /// Returns the sum of the damping forces \[N\].
-    pub(crate) fn load_bodies(&self, bodies: &[Option<RigidBody>], state: &mut State) -> [f64; 3] {
-        let mut sum = Vector::zero();
-        for (index, body) in bodies.iter().enumerate() {
-            let Some(body) = body.as_ref().filter(|body| body.is_free()) else { continue };
-            body.support(&mut state.boundaries[index]);
-            let [weight, applied] = self.on_body(body, &state.boundaries[index], &state.particles);
-            let damped = self.of_body(body);
-            let part = |is: bool, load: Load| if is { load } else { [Vector::zero(); 2] };
-            let moved = &mut state.boundaries[index];
-            let held = halves(moved.inertial.support);
-            let before: Load = [0, 1].map(|k| {
-                let particles = if k == 0 { moved.force } else { moved.moment };
-                Vector::from(particles) + held[k] + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k]
-            });
-            let braking = [
-                body.along_free(brakes(damped.linear, before[0], moved.velocity)),
-                body.about_free(brakes(damped.angular, before[1], moved.angular_velocity)),
-            ];
-            let load: Load = [0, 1]
-                .map(|k| before[k] + braking[k] + part(!damped.gravity, weight)[k] + part(!damped.applied, applied)[k]);
-            sum += braking[0];
-            let inertial = &mut moved.inertial;
-            [inertial.load, inertial.couple] = load.map(Vector::to_array);
-            [inertial.braking_force, inertial.braking_moment] = braking.map(Vector::to_array);
-        }
-        sum.to_array()
-    }
-
-    /// Weight of a body, and the forces applied to it and to its spheres.
-    pub(crate) fn on_body(&self, body: &RigidBody, moved: &BoundaryState, particles: &Particles) -> [Load; 2] {
-        let weight = Vector::from(self.weight(body.mass));
-        let weight = [weight, Quaternion::from(moved.orientation).turn(body.offset).cross(weight)];
-        let mut applied = halves(moved.inertial.applied);
-        for &member in body.members.iter().filter(|_| !self.applied.is_empty()) {
-            let row = particles.position[particles.slot[member as usize] as usize];
-            let force = Vector::from(self.applied(member));
-            applied[0] += force;
-            applied[1] += (Vector::from(row) - moved.pivot.into()).cross(force);
-        }
-        [weight, applied]
-    }
-
-    /// Adds weight, applied forces and damping in its place to the load on a clump with this motion, whose first sphere has this index.
-    /// Returns the damping.
-    pub(crate) fn complete(
-        &self,
-        load: &mut Load,
-        (weight, applied): (Load, Load),
-        motion: [Row; 2],
-        first: u32,
-    ) -> Load {
-        let damped = self.damped(first);
-        let part = |is: bool, load: Load| if is { load } else { [Vector::zero(); 2] };
-        let fractions = [damped.linear, damped.angular];
-        let braking: Load = [0, 1].map(|k| {
-            let before = load[k] + part(damped.gravity, weight)[k] + part(damped.applied, applied)[k];
-            brakes(fractions[k], before, Vector::from(motion[k]).to_array()).into()
-        });
-        for k in 0..2 {
-            load[k] += weight[k] + applied[k] + braking[k];
-        }
-        braking
-    }
-
     /// Adds gravity, where nothing else acts.
     fn weigh(&self, state: &mut State, context: &Context) {
         if self.gravity == [0.0; 3] {
@@ -283,11 +211,6 @@ impl Fields {
         }
         (before, after)
     }
-}
-
-/// Force and moment of a load.
-fn halves([x, y, z, a, b, c]: [f64; 6]) -> Load {
-    [Vector::new(x, y, z), Vector::new(a, b, c)]
 }
 
 /// Adds a load to a row.

@@ -4,6 +4,7 @@ mod braking;
 mod damped;
 mod fields;
 
+pub(crate) use braking::brakes;
 pub(crate) use fields::{Fields, Load};
 
 use crate::base::geometry::Quaternion;

@@ -1,11 +1,11 @@
 //! From a checked scene to its state at time 0 and the passes composed for it.
 
+use crate::engine::bodies::ClumpBodies;
+use crate::engine::bodies::RigidBody;
 use crate::engine::bonds::BondPass;
 use crate::engine::bonds::walls::WallBondPass;
-use crate::engine::boundaries::RigidBody;
 use crate::engine::boundaries::course;
 use crate::engine::cell::Cell;
-use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::batches::BatchLaw;
 use crate::engine::contacts::coefficients::{self, CoefficientTable};

@@ -6,10 +6,9 @@ use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
 use crate::base::threads::{Context, Workers};
+use crate::engine::bodies::{self, ClumpBodies, boundary};
 use crate::engine::boundaries::passing::Passing;
-use crate::engine::boundaries::rigid_body;
 use crate::engine::cell::Cell;
-use crate::engine::clumps::{self, ClumpBodies};
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy::PendingWork;
 use crate::engine::flow::Flow;
@@ -52,10 +51,10 @@ impl Simulation {
             stages: Stages::default(),
             passes,
             fields: Fields::of(&scene),
-            bodies: rigid_body::of(&scene),
+            bodies: boundary::of(&scene),
             serves: scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.servo().is_some())),
             cell: Cell::of(&scene),
-            clumps: ClumpBodies::of(&scene),
+            shapes: ClumpBodies::of(&scene),
             flow,
             transfer: Transfer::of(&scene),
             errors: ErrorCurve::default(),
@@ -85,9 +84,9 @@ impl Simulation {
     /// Makes the lists and the first bonds.
     pub(super) fn build(&mut self) -> Result<(), RunError> {
         self.give_orientations();
-        rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
+        boundary::place_groups(&self.scene, &self.bodies, &mut self.state);
         let context = Context { step: 0.0, width: self.width, threads: None };
-        if let Some(clumps) = &self.clumps {
+        if let Some(clumps) = &self.shapes {
             clumps.place(&mut self.state);
         }
         self.check_memory()?;
@@ -130,9 +129,8 @@ impl Simulation {
         if self.scene.heat.frozen {
             return 0.0;
         }
-        let groups = rigid_body::coming_speed(&self.bodies, &self.state, step);
-        let clumps = clumps::coming_speed(&self.state.clumps, step);
-        integration::coming_speed(&self.state.particles, step).max(groups).max(clumps)
+        let bodies = bodies::coming_speed(&self.bodies, &self.state, step);
+        integration::coming_speed(&self.state.particles, step).max(bodies)
     }
 
     /// Restores a state of this simulation, which is checked first ([`Simulation::check`]); the simulation continues from

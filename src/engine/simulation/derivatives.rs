@@ -7,7 +7,7 @@
 use super::{RunError, Simulation};
 use crate::base::number::Vector;
 use crate::base::quantity::BoundaryIndex;
-use crate::engine::boundaries::rigid_body::came_to;
+use crate::engine::bodies::loads::came_to;
 use crate::engine::state::contacts::TOUCHING;
 use crate::engine::state::ledger::Source;
 

@@ -25,7 +25,7 @@ impl Simulation {
         if !flow.is_due(&self.scene, &self.state) {
             return Ok(leaving.is_some());
         }
-        let came = flow.insert(&self.scene, (&self.fields, self.clumps.as_ref()), &mut self.state, step)?;
+        let came = flow.insert(&self.scene, (&self.fields, self.shapes.as_ref()), &mut self.state, step)?;
         if came {
             // What is new may touch others in a way that nothing has foreseen.
             self.state.foresight.travel = f64::MAX;

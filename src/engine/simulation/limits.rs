@@ -76,7 +76,7 @@ impl Simulation {
     /// What the stable time step is found from.
     pub(super) fn system(&self) -> System<'_> {
         let Self { scene, state, bodies, fields, passes, .. } = self;
-        System { scene, state, bodies, clumps: self.clumps.as_ref(), fields, passes }
+        System { scene, state, bodies, strikers: self.strikers(), fields, passes }
     }
 
     /// Foresees for time steps of this length \[s\], or of the automatic one that follows, where that is much longer: from a root found

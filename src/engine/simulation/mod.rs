@@ -44,12 +44,12 @@ pub use taken_over::Description;
 
 use crate::base::lanes::Width;
 use crate::base::threads::{Context, Workers};
+use crate::engine::bodies::{ClumpBodies, RigidBody, Striker};
 use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
+use crate::engine::boundaries::nodes;
 use crate::engine::boundaries::passing::Passing;
-use crate::engine::boundaries::{RigidBody, nodes};
 use crate::engine::cell::Cell;
-use crate::engine::clumps::ClumpBodies;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy;
@@ -90,8 +90,8 @@ pub struct Simulation {
     suppression: Suppression,
     /// The periodic cell, where the scene has one.
     cell: Option<Cell>,
-    /// Clumps, where the scene has any.
-    clumps: Option<ClumpBodies>,
+    /// Shapes of clumps, where the scene has any.
+    shapes: Option<ClumpBodies>,
     /// What lets heat flow, where any does.
     transfer: Option<Transfer>,
     /// What lets particles come and go; none where their number stays.
@@ -171,6 +171,11 @@ impl Simulation {
     /// Calls this function, from now on, after each stage of a time step: to measure what each costs.
     pub fn watch(&mut self, watch: Watch) {
         self.watch = Some(watch);
+    }
+
+    /// What stands for bodies of several spheres where impacts are foreseen.
+    fn strikers(&self) -> &[Striker] {
+        self.shapes.as_ref().map_or(&[][..], ClumpBodies::strikers)
     }
 
     /// The scene.

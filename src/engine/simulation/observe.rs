@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::base::number::Vector;
 use crate::base::threads::Context;
+use crate::engine::bodies;
 use crate::engine::cell::Fabric;
 use crate::engine::contacts::{BondRecord, ContactRecord, SLIGHT};
 use crate::engine::energy;
@@ -24,7 +25,7 @@ pub struct ElasticEnergy {
 }
 
 impl Simulation {
-    /// Kinetic energy of the particles, groups and clumps that move by the forces on them \[J\].
+    /// Kinetic energy of the particles and bodies that move by the forces on them \[J\].
     pub fn kinetic_energy(&self) -> f64 {
         energy::kinetic(&self.state, &self.bodies, &self.quiet())
     }
@@ -128,7 +129,7 @@ impl Simulation {
         sum
     }
 
-    /// Mean unbalanced force of the free particles, groups and clumps over the mean normal force of the contacts, or, where no
+    /// Mean unbalanced force of the free particles and bodies over the mean normal force of the contacts, or, where no
     /// contact presses, over the mean force of the bonds; infinite where there is neither.
     pub fn unbalanced_force(&self) -> f64 {
         let particles = &self.state.particles;
@@ -138,14 +139,8 @@ impl Simulation {
             sum += Vector::from(particles.force[slot]).length();
             count += 1;
         }
-        for (body, moved) in self.bodies.iter().zip(&self.state.boundaries) {
-            if let Some(body) = body.as_ref().filter(|body| body.moves != [false; 3]) {
-                sum += body.along_free(moved.inertial.load).length();
-                count += 1;
-            }
-        }
-        for force in &self.state.clumps.force {
-            sum += Vector::from(*force).length();
+        for body in bodies::each(&self.bodies, &self.state).filter(|body| body.moves != [false; 3]) {
+            sum += body.rigid.force.length();
             count += 1;
         }
         match self.mean_interaction() {
@@ -169,7 +164,7 @@ impl Simulation {
     /// The fastest of the particles that forces move: its index, its speed \[m/s\] and its radius \[m\].
     pub fn fastest(&self) -> Option<(u32, f64, f64)> {
         let particles = &self.state.particles;
-        let moves = |slot: &usize| particles.owner[*slot] == 0 || self.state.clump(*slot).is_some();
+        let moves = |slot: &usize| self.state.is_loose(*slot);
         let free = (0..particles.len()).filter(moves);
         let speed = |slot: usize| Vector::from(particles.velocity[slot]).length();
         let slot = free.reduce(|most, next| if speed(next) > speed(most) { next } else { most })?;

@@ -58,8 +58,7 @@ impl Simulation {
         }
         let bodies = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
             let body = body.as_ref().filter(|body| body.is_free())?;
-            let mobility = body.mobility(moved).diagonal();
-            Some(body.springs().iter().zip(mobility.iter()).map(|(k, per_mass)| k * per_mass).fold(0.0, f64::max))
+            Some(body.springs().iter().zip(body.yields(moved)).map(|(k, per_mass)| k * per_mass).fold(0.0, f64::max))
         });
         let square = bodies.fold(0.0, f64::max);
         (SPRUNG * self.scene.run.accuracy.error() / square).sqrt()

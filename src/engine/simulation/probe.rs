@@ -5,7 +5,7 @@ use crate::base::geometry::{Quaternion, rotation};
 use crate::base::number::Vector;
 use crate::base::quantity::BoundaryIndex;
 use crate::base::threads::Context;
-use crate::engine::boundaries::rigid_body::{self, RigidBody};
+use crate::engine::bodies::{RigidBody, boundary};
 use crate::engine::contacts::{Link, SearchLimits};
 use crate::engine::state::{BoundaryState, Clumps, Orientation, State};
 use std::sync::Arc;
@@ -132,14 +132,14 @@ impl Probe {
                 }
             }
         }
-        if let Some(clumps) = &simulation.clumps {
-            clumps.place(&mut simulation.state);
+        if let Some(shapes) = &simulation.shapes {
+            shapes.place(&mut simulation.state);
         }
         if let Some(cell) = &simulation.cell {
             cell.place_images(&mut simulation.state);
         }
         let Simulation { scene, bodies, state, .. } = &mut *simulation;
-        rigid_body::place_groups(scene, bodies, state);
+        boundary::place_groups(scene, bodies, state);
         let context = Context { step: slowly, ..simulation.standing() };
         simulation.evaluate_interactions(&context)?;
         Ok(&simulation.state)

@@ -2,8 +2,8 @@
 
 use super::{RunError, Simulation};
 use crate::base::number::Vector;
+use crate::engine::bodies;
 use crate::engine::boundaries::passing::MovedParticles;
-use crate::engine::clumps::speed_after;
 use crate::engine::run_error::Cause;
 use crate::engine::state::{Clock, GONE, Particles};
 use crate::laws::motion::InputCourse;
@@ -46,28 +46,16 @@ impl Simulation {
                 return Err(self.runaway(particles.id[slot], way / radius, cause));
             }
         }
-        for (index, (body, moved)) in self.bodies.iter().zip(&self.state.boundaries).enumerate() {
-            let Some(body) = body else { continue };
-            let way = step * body.coming_speed(moved, step);
+        for body in bodies::each(&self.bodies, &self.state) {
+            let way = step * body.speed_after(step);
             if way > RUNAWAY * body.smallest {
-                let now = body.coming_speed(moved, 0.0);
-                let force = Vector::from(moved.inertial.load).length();
-                let cause = self.cause_of_displacement(step, now, force, step * now > 0.5 * way);
+                let now = body.speed_after(0.0);
+                let cause = self.cause_of_displacement(step, now, body.force().length(), step * now > 0.5 * way);
                 let Some(&member) = body.members.first() else {
-                    let (boundary, time) = (self.scene.boundaries[index].name.clone(), self.time());
+                    let (boundary, time) = (self.scene.boundaries[body.number].name.clone(), self.time());
                     return Err(RunError::SurfaceRunaway { boundary, way, radii: way / body.smallest, time, cause });
                 };
                 return Err(self.runaway(member, way / body.smallest, cause));
-            }
-        }
-        let clumps = &self.state.clumps;
-        for clump in 0..clumps.len() {
-            let (smallest, way) = (clumps.moments[clump][3], step * speed_after(clumps, clump, step));
-            if way > RUNAWAY * smallest {
-                let now = speed_after(clumps, clump, 0.0);
-                let force = Vector::from(clumps.force[clump]).length();
-                let cause = self.cause_of_displacement(step, now, force, step * now > 0.5 * way);
-                return Err(self.runaway(clumps.spheres_of(clump)[0], way / smallest, cause));
             }
         }
         Ok(())

@@ -1,7 +1,8 @@
 //! How far speeds, contacts and bonds may change until the stable time step is computed again.
 
 use super::Simulation;
-use crate::engine::boundaries::{RigidBody, course};
+use crate::engine::bodies::RigidBody;
+use crate::engine::boundaries::course;
 use crate::engine::contacts::{FASTER, SearchLimits};
 use crate::engine::stability;
 use crate::engine::state::Row;

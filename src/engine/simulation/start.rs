@@ -2,7 +2,8 @@
 
 use super::{RunError, Simulation, assemble};
 use crate::base::threads::Context;
-use crate::engine::boundaries::{course, nodes, placing, rigid_body};
+use crate::engine::bodies::boundary;
+use crate::engine::boundaries::{course, nodes, placing};
 use crate::engine::flow;
 use crate::engine::state::{BoundaryState, State};
 use crate::engine::transfer;
@@ -76,7 +77,7 @@ impl Simulation {
         }
         loads |= transfer::put(&self.scene, self.state.heat.as_mut(), inputs.heat.as_ref());
         if moves {
-            rigid_body::place_groups(&self.scene, &self.bodies, &mut self.state);
+            boundary::place_groups(&self.scene, &self.bodies, &mut self.state);
             self.rebuild(&self.standing());
         }
         if moves || loads || unbuilt { self.start() } else { Ok(()) }

@@ -1,7 +1,7 @@
 //! States from outside are checked before they are used.
 
 use super::{RunError, Simulation};
-use crate::engine::clumps;
+use crate::engine::bodies::clumps;
 use crate::engine::columns;
 use crate::engine::flow;
 use crate::engine::state::{State, StateFault, demand};

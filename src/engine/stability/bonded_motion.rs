@@ -2,8 +2,8 @@
 
 use super::System;
 use crate::base::number::Vector;
+use crate::engine::bodies;
 use crate::engine::bonds::clusters;
-use crate::engine::clumps;
 use crate::engine::contacts::{Frame, Link, SearchLimits};
 use crate::engine::state::ledger::Source;
 use nalgebra::{Matrix3, Vector3};
@@ -145,12 +145,12 @@ impl System<'_> {
             let Some(body) = self.bodies[group].as_ref().filter(|body| body.is_free()) else {
                 return [velocity, [Vector::zero(); 2]];
             };
-            return [velocity, body.answer(moved)];
+            return [velocity, body.rigid(moved).answer()];
         }
         let (clumps, clump) = (&self.state.clumps, group - boundaries.len());
         let velocity = [clumps.velocity[clump].into(), clumps.angular_velocity[clump].into()];
-        // What half a kick of two seconds gives.
-        [velocity, clumps::last_kick(clumps, clump, 2.0)]
+        let answer = bodies::numbered(self.bodies, self.state, group).map_or([Vector::zero(); 2], |body| body.answer());
+        [velocity, answer]
     }
 
     /// How a body resists motion.
@@ -160,22 +160,20 @@ impl System<'_> {
             let (mass, moment) = (particles.velocity[body][3], particles.angular_velocity[body][3]);
             return Inertia { mass: [mass; 3], turning: Matrix3::identity() * moment, support: None };
         };
-        let block = |mobility: &nalgebra::Matrix6<f64>| mobility.fixed_view::<3, 3>(3, 3).into_owned();
+        let root = bodies::numbered(self.bodies, self.state, group).map(|body| body.root([1.0; 2])).unwrap_or_default();
+        let inverse = (root * root.transpose()).fixed_view::<3, 3>(3, 3).into_owned();
         if group < boundaries.len() {
-            let moved = &boundaries[group];
             let Some(body) = self.bodies[group].as_ref().filter(|body| body.is_free()) else {
                 return Inertia { mass: [0.0; 3], turning: Matrix3::zeros(), support: Some(false) };
             };
             let freedoms = body.freedoms();
-            let inverse = block(&body.mobility(moved));
             let of_axis = inverse.map(|part| if part > 0.0 { 1.0 / part } else { 0.0 });
             let turning = inverse.try_inverse().unwrap_or_else(|| Matrix3::from_diagonal(&of_axis.diagonal()));
             let mass = [0, 1, 2].map(|axis| if freedoms[axis] { body.mass } else { 0.0 });
             return Inertia { mass, turning, support: (freedoms != [true; 6]).then_some(true) };
         }
         let (clumps, clump) = (&self.state.clumps, group - boundaries.len());
-        let root = clumps::root(clumps, clump, [1.0; 2]);
-        let turning = block(&(root * root.transpose())).try_inverse().unwrap_or_else(Matrix3::zeros);
+        let turning = inverse.try_inverse().unwrap_or_else(Matrix3::zeros);
         Inertia { mass: [clumps.velocity[clump][3]; 3], turning, support: None }
     }
 }

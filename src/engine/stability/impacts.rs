@@ -7,14 +7,13 @@
 use super::System;
 use super::limiter::{Limiter, LimiterKind, Mode};
 use crate::base::number::Vector;
-use crate::engine::boundaries::RigidBody;
-use crate::engine::clumps::{ClumpBodies, Striker};
+use crate::engine::bodies::RigidBody;
+use crate::engine::bodies::Striker;
 use crate::engine::contacts::{Frame, Meeting};
 use crate::engine::integration::Fields;
 use crate::engine::state::GONE;
 use crate::laws::contact::Contact;
 use crate::scene::ParticleShape;
-use nalgebra::Matrix6;
 
 /// Turns in which the root of slip and rolling comes down to where it stands.
 const TURNS: usize = 12;
@@ -170,7 +169,7 @@ impl System<'_> {
         let surface = |(index, body): (usize, &Option<RigidBody>)| {
             let body = body.as_ref().filter(|body| body.is_free() && body.is_surface())?;
             let (moved, extent) = (&self.state.boundaries[index], extents.get(index).copied().unwrap_or(0.0));
-            let answers = answers(&body.mobility(moved), extent, self.fields.amplification_of(body));
+            let answers = body.answers(extent, self.fields.amplification_of(&body.members));
             Some(MovedSurface { answers, acceleration: body.acceleration(moved, extent) })
         };
         self.bodies.iter().enumerate().map(surface).collect()
@@ -219,10 +218,9 @@ impl System<'_> {
                 *large = large.filter(|large| large.radius >= most.radius).or(Some(most));
             }
         }
-        for (body, boundary) in self.bodies.iter().zip(&self.state.boundaries) {
-            let Some(body) = body.as_ref().filter(|body| body.is_free() && !body.is_surface()) else { continue };
-            let factors = self.fields.amplification_of(body);
-            let answers = answers(&body.mobility(boundary), body.farthest + body.largest, factors);
+        for body in self.bodies.iter().flatten().filter(|body| body.is_free() && !body.is_surface()) {
+            let factors = self.fields.amplification_of(&body.members);
+            let answers = body.answers(body.farthest + body.largest, factors);
             let mut own: Vec<Option<Candidate>> = vec![None; materials];
             for &member in &body.members {
                 let Some(slot) = particles.slot_of(member) else { continue };
@@ -240,9 +238,8 @@ impl System<'_> {
                 }
             }
         }
-        let clumps =
-            self.clumps.map_or(&[][..], ClumpBodies::strikers).iter().map(|it| Some(it.candidate(self.fields)));
-        lightest.into_iter().flatten().chain(largest).chain(still).chain(moved).chain(clumps).flatten().collect()
+        let strikers = self.strikers.iter().map(|it| Some(it.candidate(self.fields)));
+        lightest.into_iter().flatten().chain(largest).chain(still).chain(moved).chain(strikers).flatten().collect()
     }
 }
 
@@ -291,14 +288,6 @@ fn join(all: &mut Option<Candidate>, next: Candidate) {
         has_likes: true,
         ..it
     }));
-}
-
-/// The largest acceleration \[1/kg\] and angular acceleration \[1/(kg m²)\] that unit loads at this arm \[m\] give, or above, times these
-/// factors.
-fn answers(mobility: &Matrix6<f64>, arm: f64, [linear, angular]: [f64; 2]) -> [f64; 2] {
-    let diagonal = mobility.diagonal();
-    let spin = angular * diagonal.fixed_rows::<3>(3).sum();
-    [linear * diagonal.fixed_rows::<3>(0).max() + spin * arm * arm, spin]
 }
 
 /// What a contact law sees of two bodies, or of one at a surface, as they begin to touch.

@@ -20,8 +20,7 @@ mod triangle;
 mod vibration;
 
 use crate::base::threads::Context;
-use crate::engine::boundaries::RigidBody;
-use crate::engine::clumps::ClumpBodies;
+use crate::engine::bodies::{RigidBody, Striker};
 use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{GONE, State};
@@ -49,8 +48,8 @@ pub(crate) struct System<'a> {
     pub state: &'a State,
     /// Groups that move.
     pub bodies: &'a [Option<RigidBody>],
-    /// Clumps, where there are any.
-    pub clumps: Option<&'a ClumpBodies>,
+    /// What stands for bodies of several spheres where impacts are foreseen.
+    pub strikers: &'a [Striker],
     /// What acts on each particle by itself.
     pub fields: &'a Fields,
     /// Interactions.

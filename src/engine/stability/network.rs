@@ -1,8 +1,7 @@
 //! The network of springs and dashpots: contacts and bonds between the bodies that forces move.
 
 use crate::base::number::{Vector, binade};
-use crate::engine::boundaries::RigidBody;
-use crate::engine::clumps;
+use crate::engine::bodies::{self, RigidBody};
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
 use crate::engine::state::{IMAGE, State};
@@ -120,7 +119,7 @@ impl Parts {
     }
 }
 
-/// A group, a clump or a surface that forces move.
+/// A body that forces move.
 pub(super) struct Group {
     /// Where its reference point stands \[m\].
     pub pivot: Vector,
@@ -134,7 +133,7 @@ pub(crate) struct Network<'a> {
     pub(super) state: &'a State,
     /// Of each particle (slot): what scales its translations \[1/√kg\] and its rotations \[1/√(kg m²)\].
     pub(super) roots: Arc<[[f64; 2]]>,
-    /// Of each boundary, and behind them of each clump.
+    /// Of each body of several parts, by its number.
     pub(super) groups: Arc<[Option<Group>]>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
@@ -146,31 +145,23 @@ pub(crate) struct Network<'a> {
 
 impl<'a> Network<'a> {
     /// The bodies without interactions.
-    pub(super) fn of_bodies(state: &'a State, bodies: &[Option<RigidBody>], fields: &Fields) -> Self {
+    pub(super) fn of_bodies(state: &'a State, rigid: &[Option<RigidBody>], fields: &Fields) -> Self {
         let particles = &state.particles;
         let root = |slot: usize| {
             let [linear, angular] = fields.amplification(particles.id[slot]);
             let (mass, inertia) = (particles.velocity[slot][3], particles.angular_velocity[slot][3]);
             [(linear / mass).sqrt(), (angular / inertia).sqrt()]
         };
-        let group = |(body, moved): (&Option<RigidBody>, _)| {
-            let body = body.as_ref().filter(|body| body.is_free())?;
-            let [linear, angular] = fields.amplification_of(body);
-            let factor = |row: usize| if row < 3 { linear } else { angular };
-            let mobility = body.mobility(moved).map_with_location(|row, _, part| part * factor(row));
-            Some(Group { pivot: moved.pivot.into(), root: root_of(&mobility) })
-        };
-        let groups = bodies.iter().zip(&state.boundaries).map(group);
-        let rigid = &state.clumps;
-        let clump = |index: usize| {
-            let root = clumps::root(rigid, index, clumps::amplification(rigid, index, fields));
-            Some(Group { pivot: Vector::from(rigid.position[index]), root })
-        };
-        let groups = groups.chain((0..rigid.len()).map(clump));
+        let mut groups: Vec<Option<Group>> = Vec::new();
+        groups.resize_with(state.owners(), || None);
+        for body in bodies::each(rigid, state) {
+            let root = body.root(fields.amplification_of(body.members));
+            groups[body.number] = Some(Group { pivot: body.point, root });
+        }
         Self {
             state,
             roots: (0..particles.len()).map(root).collect(),
-            groups: groups.collect(),
+            groups: groups.into(),
             elements: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
@@ -207,7 +198,7 @@ impl<'a> Network<'a> {
     }
 
     /// The springs of bodies to the ground. Their dashpots do not limit the time step
-    /// ([`crate::engine::boundaries::rigid_body`]).
+    /// ([`crate::engine::bodies::boundary`]).
     pub(super) fn supports(&self, bodies: &[Option<RigidBody>]) -> Vec<(Element, [f64; 4])> {
         let mut supports = Vec::new();
         for (index, body) in bodies.iter().enumerate() {
@@ -281,7 +272,7 @@ impl<'a> Network<'a> {
         std::array::from_fn(|k| stiffness[k] + root * damping[k])
     }
 
-    /// An interaction; of a particle or clump with an image of itself two with what stands still, which are together at least as stiff, as
+    /// An interaction; of a body with an image of itself two with what stands still, which are together at least as stiff, as
     /// |a − b|² ≤ 2 |a|² + 2 |b|².
     pub(super) fn with_itself(&self, link: &Link) -> [Option<Link>; 2] {
         if self.state.cell.is_none() {
@@ -372,8 +363,8 @@ impl<'a> Network<'a> {
         let [own, other] = [element.slots[end], element.slots[1 - end]];
         let in_cell = |slot: usize| Vector::from(particles.position[slot]);
         let centre = match centre(own) {
-            // A clump is brought back into a cell with its mass centre, a group stays where its pivot is.
-            Some(slot) if self.state.clump(slot).is_some() => in_cell(slot),
+            // What is loose is brought back into a cell as a whole, a group stays where its pivot is.
+            Some(slot) if self.state.is_loose(slot) => in_cell(slot),
             Some(slot) => Vector::from(self.state.unwrapped(slot)),
             None => match centre(other) {
                 Some(slot) => in_cell(slot),
@@ -390,11 +381,4 @@ fn most_links(state: &State) -> usize {
     let walls = state.walls.iter().map(|list| list.particle.len());
     let bonds = state.bonds.iter().map(|list| 2 * list.first.len());
     pairs.chain(walls).chain(bonds).sum()
-}
-
-/// L of the mobility L Lᵀ of a body (Cholesky); freedoms that do not move have zeros.
-fn root_of(mobility: &Matrix6<f64>) -> Matrix6<f64> {
-    // With ones in their place, freedoms that do not move have a root, too.
-    let still = Matrix6::from_diagonal(&mobility.diagonal().map(|part| if part > 0.0 { 0.0 } else { 1.0 }));
-    (mobility + still).cholesky().map_or(Matrix6::zeros(), |root| root.l() - still)
 }

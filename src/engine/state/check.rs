@@ -712,10 +712,9 @@ impl Ledger {
         for powers in [&self.work, &self.power, &self.growth] {
             all_finite(powers, "ledger")?;
         }
-        let of = |lists, count| std::iter::repeat(count).zip(lists);
-        for (count, loads) in of(&self.on_bodies, boundaries).chain(of(&self.on_clumps, clumps)) {
-            let expected = "one for each boundary or clump, or none";
-            demand(loads.is_empty() || loads.len() == count, "loads", loads.len(), expected)?;
+        for loads in &self.on_bodies {
+            let expected = "one for each boundary and clump, or none";
+            demand(loads.is_empty() || loads.len() == boundaries + clumps, "loads", loads.len(), expected)?;
             loads.iter().try_for_each(|load| all_finite(load, "loads"))?;
         }
         Ok(())

@@ -75,11 +75,9 @@ pub struct Ledger {
     pub growth: [f64; Source::COUNT],
     /// Sum of the magnitudes of the powers of each piece of the particles \[W\].
     pub power_turned_over: f64,
-    /// Force \[N\] and moment \[N m\] on the spheres of each body when those of each kind that passes make have been added; empty
+    /// Force \[N\] and moment \[N m\] on the spheres of each body, boundaries before clumps, when those of each kind that passes make have been added; empty
     /// where the scene has no such kind.
     pub on_bodies: [Vec<[f64; 6]>; Source::PASSES],
-    /// The same of each clump.
-    pub on_clumps: [Vec<[f64; 6]>; Source::PASSES],
 }
 
 clone_in_place!(Ledger {
@@ -90,8 +88,7 @@ clone_in_place!(Ledger {
     power,
     growth,
     power_turned_over,
-    on_bodies,
-    on_clumps
+    on_bodies
 });
 
 impl Ledger {

@@ -150,8 +150,18 @@ impl State {
         self.bonds.iter().any(|list| !list.first.is_empty())
     }
 
-    /// Whether two particles (slots) are spheres of one clump.
-    pub(crate) fn are_of_one_clump(&self, a: u32, b: u32) -> bool {
+    /// Whether the particle in a slot moves by the forces on it, by itself or with a clump.
+    pub(crate) fn is_loose(&self, slot: usize) -> bool {
+        self.particles.owner[slot] == 0 || self.clump(slot).is_some()
+    }
+
+    /// How many bodies of several parts there may be: boundaries, and behind them clumps.
+    pub(crate) fn owners(&self) -> usize {
+        self.boundaries.len() + self.clumps.len()
+    }
+
+    /// Whether two particles (slots) are spheres of one body that needs no bond: of a clump.
+    pub(crate) fn are_of_one_body(&self, a: u32, b: u32) -> bool {
         let of = |slot: u32| self.clump(slot as usize);
         of(a).is_some() && of(a) == of(b)
     }

@@ -4,7 +4,7 @@ use super::boundaries::boundaries;
 use super::job::Job;
 use super::vtk::{Kind, PointCloud, Values};
 use crate::base::geometry::{Lattice, Quaternion};
-use crate::engine::clumps::{force_on, mass_of};
+use crate::engine::bodies::loads::{force_on, mass_of};
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
 use crate::engine::state::{CellState, Clumps, Particles};
 use crate::scene::{ParticleShape, Scene};

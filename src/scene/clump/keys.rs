@@ -1,10 +1,10 @@
 //! Clumps as the scene writes them.
 
 use super::ClumpShape;
-use super::moments::principal;
 use super::union::moments;
 use crate::base::document::Mistake;
 use crate::base::geometry::Quaternion;
+use crate::base::geometry::principal::principal;
 use crate::base::number::Vector;
 use crate::base::quantity::{Numbers, Positive, Triple};
 use crate::scene::file::Inertia;

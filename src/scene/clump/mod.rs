@@ -3,7 +3,6 @@
 //! A clump is placed by its mass centre. Its spheres are particles of the scene, one behind the other; what moves them is the clump.
 
 mod keys;
-mod moments;
 mod union;
 
 pub use keys::OrientationKey;

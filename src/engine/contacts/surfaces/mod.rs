@@ -12,12 +12,12 @@ mod sphere;
 
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
-use super::pass::{Pass, SurfaceTouch};
+use super::pass::{Pass, Stiffness, SurfaceTouch, Telling};
 use super::records::ContactRecord;
 use crate::base::lanes::Shared;
 use crate::base::number::Vector;
 use crate::base::threads::{CHUNK, Context};
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::RigidBody;
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, DeepestSearch, Entries};
 use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};
@@ -374,7 +374,9 @@ impl Pass for SurfacePass {
             }
         }
     }
+}
 
+impl Stiffness for SurfacePass {
     fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {
@@ -411,7 +413,9 @@ impl Pass for SurfacePass {
             }
         }
     }
+}
 
+impl Telling for SurfacePass {
     fn contacts(&self, state: &State, step: f64, tell: &mut dyn FnMut(ContactRecord)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {

@@ -3,9 +3,8 @@
 use super::super::Simulation;
 use super::super::time_step::TimeStep;
 use crate::base::threads::Context;
-use crate::engine::boundaries::{RigidBody, loads, nodes};
-use crate::engine::clumps;
-use crate::engine::energy;
+use crate::engine::bodies::{self, RigidBody};
+use crate::engine::boundaries::{loads, nodes};
 use crate::engine::state::ledger::Source;
 
 impl Simulation {
@@ -22,7 +21,7 @@ impl Simulation {
     /// Whether anything but particles moves by forces, or gathers those on its particles.
     pub(super) fn has_bodies(&self) -> bool {
         let is_body = |body: &RigidBody| body.is_free();
-        self.clumps.is_some()
+        self.shapes.is_some()
             || self.bodies.iter().flatten().any(is_body)
             || self.scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty())
     }
@@ -73,8 +72,7 @@ impl Simulation {
 
     /// Notes the loads on bodies so far, of which the last are of this kind.
     pub(super) fn book_on_bodies(&mut self, source: Source) {
-        energy::note_on_bodies(&mut self.state, &self.bodies, source);
-        clumps::note_loads(&mut self.state, source);
+        bodies::book::note(&mut self.state, &self.bodies, source);
     }
 
     /// Finds the virial, and takes the streaming motion out of the velocities.
@@ -90,12 +88,10 @@ impl Simulation {
         self.suppression.settle(&mut self.state);
     }
 
-    /// Puts the whole load on groups, surfaces that forces move, and clumps.
+    /// Puts the whole load on bodies.
     pub(super) fn load_bodies(&mut self, context: &Context) {
         let Self { scene, fields, bodies, state, workspace, .. } = self;
         loads::sum_groups(scene, state);
-        let on_clumps = clumps::load(fields, state, context);
-        let on_groups = fields.load_bodies(bodies, state);
-        workspace.braking = [0, 1, 2].map(|axis| on_clumps[axis] + on_groups[axis]);
+        workspace.braking = bodies::loads::load(fields, bodies, state, context);
     }
 }

@@ -4,8 +4,9 @@ use super::super::Simulation;
 use super::super::time_step::TimeStep;
 use crate::base::number::larger;
 use crate::base::threads::Context;
-use crate::engine::boundaries::{loads, nodes, rigid_body};
-use crate::engine::{clumps, energy, integration, transfer};
+use crate::engine::bodies::{book, boundary};
+use crate::engine::boundaries::{loads, nodes};
+use crate::engine::{energy, integration, transfer};
 
 impl Simulation {
     /// Lets heat flow between what touches now.
@@ -51,9 +52,7 @@ impl Simulation {
     pub(in crate::engine::simulation) fn book_second_kick(&mut self, gravity: Option<[f64; 3]>, context: &Context) {
         let Self { state, fields, bodies, workspace, .. } = self;
         energy::work::book_second(state, &mut workspace.between, (fields, gravity), bodies, context);
-        energy::losses::book_bodies(state, fields, bodies, context.step);
-        clumps::book_work(state, fields, context.step);
-        clumps::book_losses(state, fields, context.step);
+        book::book_losses(state, fields, bodies, context.step);
     }
 
     /// Makes the second half of the kick of the particles that forces move.
@@ -65,12 +64,12 @@ impl Simulation {
         self.state.clock.speed = speed;
     }
 
-    /// Makes the second half of the kick of groups, surfaces and clumps that forces move.
+    /// Makes the second half of the kick of bodies.
     pub(super) fn kick_bodies(&mut self, step: &mut TimeStep) {
-        let groups = rigid_body::kick_again(&self.bodies, &mut self.state, step.length());
-        let clumps = self.clumps.as_ref().map_or(0.0, |it| it.kick_again(&mut self.state, step.length(), step.context));
+        let groups = boundary::kick_again(&self.bodies, &mut self.state, step.length());
+        let loose = self.shapes.as_ref().map_or(0.0, |it| it.kick_again(&mut self.state, step.length(), step.context));
         let speed = &mut self.state.clock.speed;
-        *speed = larger(larger(*speed, groups), clumps);
+        *speed = larger(larger(*speed, groups), loose);
     }
 
     /// Books the impulses of the step on boundaries and nodes, and that of global damping.

@@ -2,8 +2,9 @@
 
 use super::super::Simulation;
 use super::super::time_step::TimeStep;
-use crate::engine::boundaries::{course, nodes, rigid_body};
-use crate::engine::{clumps, energy, integration};
+use crate::engine::bodies::boundary;
+use crate::engine::boundaries::{course, nodes};
+use crate::engine::{energy, integration};
 
 impl Simulation {
     /// Whether a book of energy is kept.
@@ -26,8 +27,6 @@ impl Simulation {
         let length = step.length();
         energy::work::book_first(&mut self.state, &self.fields, &self.bodies, length);
         energy::losses::begin_step(&mut self.state, &self.fields, &self.bodies, length);
-        clumps::book_work(&mut self.state, &self.fields, length);
-        clumps::book_losses(&mut self.state, &self.fields, length);
     }
 
     /// Makes the first half of the kick and the drift of the particles that forces move. Their loads are zero then.
@@ -44,7 +43,7 @@ impl Simulation {
 
     /// Makes the first half of the kick and the drift of clumps.
     pub(super) fn move_clumps(&mut self, step: &mut TimeStep) {
-        let Some(clumps) = &self.clumps else { return };
+        let Some(clumps) = &self.shapes else { return };
         let speed = clumps.kick_and_drift(&mut self.state, step.length(), step.context);
         step.way = step.way.max(speed * step.length());
     }
@@ -54,7 +53,7 @@ impl Simulation {
         let Self { scene, bodies, state, workspace, .. } = self;
         course::advance(scene, bodies, state, step.progress, &mut workspace.travels);
         nodes::advance(scene, state, &step.progress, &mut workspace.travels);
-        rigid_body::place_groups(scene, bodies, state);
+        boundary::place_groups(scene, bodies, state);
     }
 
     /// Deforms the periodic cell.

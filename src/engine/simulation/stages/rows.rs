@@ -38,7 +38,7 @@ const MOTION: &[Stage] = &[
     Stage {
         name: "clumps",
         scenes: "clumps",
-        is_needed: |it| it.clumps.is_some(),
+        is_needed: |it| it.shapes.is_some(),
         reads: &[Clumps],
         writes: &[Places, Motions, Clumps],
         run: Simulation::move_clumps,

@@ -1,7 +1,7 @@
 //! Particles that came or went in the other scene.
 
 use super::{Description, Numbers};
-use crate::engine::clumps;
+use crate::engine::bodies::clumps;
 use crate::engine::columns;
 use crate::engine::flow;
 use crate::engine::state::exchange::InsertionProgress;

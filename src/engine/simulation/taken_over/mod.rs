@@ -13,9 +13,10 @@ pub use description::Description;
 use super::{RunError, Simulation, assemble, number};
 use crate::base::geometry::Quaternion;
 use crate::base::number::Vector;
-use crate::engine::boundaries::{nodes, placing, rigid_body};
+use crate::engine::bodies::boundary;
+use crate::engine::bodies::clumps;
+use crate::engine::boundaries::{nodes, placing};
 use crate::engine::cell::images;
-use crate::engine::clumps;
 use crate::engine::columns;
 use crate::engine::state::{Particles, State, StateFault};
 use crate::laws::bond::creation::Moment;
@@ -86,10 +87,10 @@ impl Simulation {
         let mut simulation = Self::with(scene, state);
         simulation.give_orientations();
         let there: Vec<_> = simulation.state.particles.position.clone();
-        let Self { scene, bodies, clumps, state, .. } = &mut simulation;
-        rigid_body::place_groups(scene, bodies, state);
-        if let Some(clumps) = clumps {
-            clumps.place(state);
+        let Self { scene, bodies, shapes, state, .. } = &mut simulation;
+        boundary::place_groups(scene, bodies, state);
+        if let Some(shapes) = shapes {
+            shapes.place(state);
         }
         check_groups(scene, state, &there)?;
         exchange::take_gone(state, reached, &numbers);

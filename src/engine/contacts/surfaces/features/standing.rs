@@ -3,7 +3,7 @@
 use crate::base::geometry::Frame;
 use crate::base::lanes::{Lane, vector};
 use crate::base::number::Vector;
-use crate::engine::boundaries::RigidBody;
+use crate::engine::bodies::RigidBody;
 use crate::engine::contacts::batches::ContactGeometry;
 use crate::engine::contacts::surfaces::nodes::Moving;
 use crate::engine::contacts::surfaces::sphere::{SphereAt, along, lanes};
@@ -50,9 +50,8 @@ struct Mobility {
 impl Mobility {
     /// Of a body where its boundary stands.
     fn of(body: &RigidBody, boundary: &BoundaryState) -> Self {
-        let mobility = body.mobility(boundary);
-        let about = [3, 4, 5].map(|axis| Vector::from([3, 4, 5].map(|row| mobility[(row, axis)])));
-        Self { along: Vector::from([0, 1, 2].map(|axis| mobility[(axis, axis)])), about }
+        let along = Vector::from([0, 1, 2].map(|axis| if body.moves[axis] { 1.0 / body.mass } else { 0.0 }));
+        Self { along, about: body.turned_by_units(boundary) }
     }
 
     /// The acceleration along a normal of a point at this arm \[m\] by a force along it there \[1/kg\].

@@ -1,25 +1,18 @@
-//! Clumps during a time step.
-//!
-//! Their spheres are rows among the particles, whose owner is the clump (behind the boundaries): lists and passes need not know. A clump
-//! gathers the loads of its spheres (`loads`), moves as a rigid body and puts its spheres where they belong (`motion`).
+//! Clumps: bodies whose spheres have their places by a shape, many of them, moved in lanes (`motion`).
 
 mod check;
-mod energy;
-mod loads;
 mod motion;
 mod strikers;
 
 pub(crate) use check::{check, is_made};
-pub(crate) use energy::{book_losses, book_work, kinetic, note_loads};
-pub(crate) use loads::{amplification, force_on, load, mass_of};
 pub(crate) use strikers::Striker;
 
 use crate::base::geometry::Quaternion;
-use crate::base::number::{Vector, larger};
+use crate::base::number::Vector;
 use crate::base::threads::CHUNK;
+use crate::engine::bodies::{Body, Rigid};
 use crate::engine::state::{ClumpRows, Clumps, Row};
 use crate::scene::{Clump, Scene};
-use nalgebra::Matrix6;
 
 /// Clumps in one piece of work.
 const PIECE: usize = CHUNK / 4;
@@ -73,13 +66,13 @@ impl ClumpBodies {
 }
 
 /// How many pieces of work so many clumps are.
-fn pieces(clumps: usize) -> usize {
+pub(super) fn pieces(clumps: usize) -> usize {
     clumps.div_ceil(PIECE)
 }
 
 /// The clumps of a piece.
 #[inline(always)]
-fn piece(piece: usize, clumps: usize) -> std::ops::Range<usize> {
+pub(super) fn piece(piece: usize, clumps: usize) -> std::ops::Range<usize> {
     piece * PIECE..((piece + 1) * PIECE).min(clumps)
 }
 
@@ -110,54 +103,54 @@ pub(crate) fn farthest(clumps: &Clumps) -> f64 {
     clumps.position.iter().map(|row| row[3]).fold(0.0, f64::max)
 }
 
-/// Largest speed of a sphere after half a kick of a step of this length \[s\], or above \[m/s\].
-pub(crate) fn coming_speed(clumps: &Clumps, step: f64) -> f64 {
-    (0..clumps.len()).map(|clump| speed_after(clumps, clump, step)).fold(0.0, larger)
-}
-
-/// The same of one clump.
-pub(crate) fn speed_after(clumps: &Clumps, clump: usize, step: f64) -> f64 {
-    let [velocity, spin] = motion_after(clumps, clump, step);
-    velocity.length() + spin.length() * clumps.position[clump][3]
-}
-
-/// Velocity and angular velocity after half a kick of a step of this length \[s\].
-pub(crate) fn motion_after(clumps: &Clumps, clump: usize, step: f64) -> [Vector; 2] {
-    let half = 0.5 * step;
-    let velocity = Vector::from(clumps.velocity[clump]);
-    let kick = Vector::from(clumps.force[clump]) * (half / clumps.velocity[clump][3]);
-    let momentum = Vector::from(clumps.angular_momentum[clump]) + Vector::from(clumps.moment[clump]) * half;
-    [velocity + kick, spin(clumps, clump, momentum)]
-}
-
-/// L of the acceleration L Lᵀ that unit loads give to a clump, linear and angular ones larger by these factors.
-pub(crate) fn root(clumps: &Clumps, clump: usize, [linear, angular]: [f64; 2]) -> Matrix6<f64> {
-    let mut root = Matrix6::zeros();
-    let axes = motion::axes(Quaternion::from_row(clumps.orientation[clump]));
-    for axis in 0..3 {
-        root[(axis, axis)] = (linear / clumps.velocity[clump][3]).sqrt();
-        let along = axes[axis] * (angular / clumps.moments[clump][axis]).sqrt();
-        for (row, part) in along.to_array().into_iter().enumerate() {
-            root[(3 + row, 3 + axis)] = part;
-        }
+/// A clump, numbered from 0, without its loads.
+#[inline(always)]
+pub(super) fn unloaded(clumps: &Clumps, clump: usize) -> Body<'_> {
+    let none = [Vector::zero(); 2];
+    Body {
+        number: clump,
+        rigid: Rigid {
+            velocity: Vector::from(clumps.velocity[clump]),
+            mass: clumps.velocity[clump][3],
+            turn: Quaternion::from_row(clumps.orientation[clump]),
+            inertia: Vector::from(clumps.moments[clump]),
+            momentum: Vector::from(clumps.angular_momentum[clump]),
+            force: none[0],
+            moment: none[1],
+        },
+        moves: [true; 3],
+        point: Vector::from(clumps.position[clump]),
+        mass_centre: Vector::zero(),
+        members: clumps.spheres_of(clump),
+        reach: clumps.position[clump][3],
+        smallest: clumps.moments[clump][3],
+        braking: none,
+        boundary: None,
+        cell: None,
     }
-    root
 }
 
-/// The angular velocity that an angular momentum gives to a clump \[rad/s\].
-fn spin(clumps: &Clumps, clump: usize, momentum: Vector) -> Vector {
-    motion::turning(Quaternion::from_row(clumps.orientation[clump]), Vector::from(clumps.moments[clump]), momentum)
+/// How a clump moves.
+#[inline(always)]
+fn rigid(clumps: &Clumps, clump: usize) -> Rigid {
+    let [force, moment] = [clumps.force[clump], clumps.moment[clump]].map(Vector::from);
+    Rigid { force, moment, ..unloaded(clumps, clump).rigid }
+}
+
+/// A clump, numbered from 0.
+pub(super) fn body(clumps: &Clumps, clump: usize) -> Body<'_> {
+    let braking = clumps.braking.get(clump).map_or([Vector::zero(); 2], |load| load.map(Vector::from));
+    Body { rigid: rigid(clumps, clump), braking, ..unloaded(clumps, clump) }
 }
 
 /// Finds the angular velocity of a clump from its angular momentum.
 pub(crate) fn set_spin(clumps: &mut Clumps, clump: usize) {
-    let momentum = Vector::from(clumps.angular_momentum[clump]);
-    clumps.angular_velocity[clump] = spin(clumps, clump, momentum).row_with(0.0);
+    clumps.angular_velocity[clump] = rigid(clumps, clump).spin().row_with(0.0);
 }
 
 /// What half a kick of a step of this length \[s\] with the present load gives to the motion of a clump \[m/s, rad/s\].
-pub(crate) fn last_kick(clumps: &Clumps, clump: usize, step: f64) -> [Vector; 2] {
-    let half = 0.5 * step;
-    let kick = Vector::from(clumps.force[clump]) * (half / clumps.velocity[clump][3]);
-    [kick, spin(clumps, clump, Vector::from(clumps.moment[clump]) * half)]
+pub(super) fn last_kick(clumps: &Clumps, clump: usize, step: f64) -> [Vector; 2] {
+    let still = Rigid { velocity: Vector::zero(), momentum: Vector::zero(), ..rigid(clumps, clump) };
+    let kicked = still.kicked(0.5 * step);
+    [kicked.velocity, kicked.spin()]
 }

@@ -1,13 +1,13 @@
 //! Principal axes of a symmetric 3 × 3 matrix.
 
-use crate::base::geometry::Quaternion;
+use super::Quaternion;
 use crate::base::number::Vector;
 
 /// Sweeps after which every matrix is diagonal to rounding.
 const SWEEPS: usize = 12;
 
 /// The eigenvalues, and the turn of the axes into the eigenvectors (Jacobi's rotations). A diagonal matrix keeps its axes.
-pub(super) fn principal(matrix: [[f64; 3]; 3]) -> ([f64; 3], Quaternion) {
+pub(crate) fn principal(matrix: [[f64; 3]; 3]) -> ([f64; 3], Quaternion) {
     let (mut a, mut axes) = (matrix, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]);
     for _ in 0..SWEEPS {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {

@@ -1,30 +1,15 @@
-//! How clumps move: half kicks and the drift of rigid bodies, as many at once as a register has numbers, and the motion of their spheres.
-//!
-//! ```text
-//! v += Δt/2 F/m    L += Δt/2 M    x += Δt v    q ← q (1, g)/|..|        w = w₀ − J⁻¹ (g × J w)    g = w Δt/2 · tan(|w| Δt/2)/(|w| Δt/2)
-//! ```
-//!
-//! w is the mean of the angular velocities before and after the drift, in principal axes. A turn about it leaves kinetic energy and
-//! angular momentum as they are (Simo and Wong 1991), as [`crate::engine::boundaries::rigid_body`] does; in principal axes an
-//! iteration costs a dozen operations.
+//! How clumps move: half kicks and the drift, as many clumps at once as a register has numbers, and the motion of their spheres.
 //!
 //! Functions, not closures: what is not inlined into a kernel is compiled without its registers.
 
 use super::{ClumpBodies, piece, pieces};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::{self, Kernel, Lane, Shared, vector};
-use crate::base::number::{Number, Vector, larger};
+use crate::base::number::{Vector, larger};
 use crate::base::threads::Context;
+use crate::engine::bodies::Rigid;
+use crate::engine::bodies::rigid::axes;
 use crate::engine::state::{Clumps, Particles, Row, State};
-
-/// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
-const ITERATIONS: usize = 40;
-
-/// Square of the change of an angular velocity, over that of its length, at which the iteration ends.
-const STANDS: f64 = 16.0 * f64::EPSILON * f64::EPSILON;
-
-/// Square of half an angle of a step beyond which it is no longer followed exactly \[rad²\].
-const FOLLOWED: f64 = 1.0;
 
 impl ClumpBodies {
     /// Makes half a kick and the drift, and puts the spheres where they belong; they do not move by themselves. Returns the largest speed of
@@ -107,30 +92,6 @@ fn give_motion(clump: usize, (rows, members): (Rows, Members), spheres: SphereRo
         *moving = (velocity + spin.cross(arm)).row_with(moving[3]);
         *turning = spin.row_with(turning[3]);
     }
-}
-
-/// Where a turn takes the axes.
-#[inline(always)]
-pub(super) fn axes(turn: Quaternion) -> [Vector; 3] {
-    let (w, Vector { x, y, z }) = (turn.scalar, turn.vector);
-    [
-        Vector::new(1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + w * z), 2.0 * (x * z - w * y)),
-        Vector::new(2.0 * (x * y - w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + w * x)),
-        Vector::new(2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)),
-    ]
-}
-
-/// The angular velocity that an angular momentum gives to a body so turned, with these moments of inertia, in principal axes.
-#[inline(always)]
-fn inside<N: Number>(turn: Quaternion<N>, inertia: Vector<N>, momentum: Vector<N>) -> Vector<N> {
-    let inside = turn.conjugate().turn(momentum);
-    Vector::new(inside.x / inertia.x, inside.y / inertia.y, inside.z / inertia.z)
-}
-
-/// The same in global axes.
-#[inline(always)]
-pub(super) fn turning<N: Number>(turn: Quaternion<N>, inertia: Vector<N>, momentum: Vector<N>) -> Vector<N> {
-    turn.turn(inside(turn, inertia, momentum))
 }
 
 /// The rows of clumps that the steps read and write.
@@ -280,110 +241,52 @@ impl Kernel for HalfKick<'_, '_> {
     }
 }
 
-/// The rows of some clumps, lane by lane.
-struct Block<N> {
-    /// Mass centre and reach.
-    position: [N; 4],
-    /// Velocity and mass.
-    velocity: [N; 4],
-    /// Principal axes.
-    turn: Quaternion<N>,
-    /// Angular momentum.
-    momentum: Vector<N>,
-    /// Force.
-    force: Vector<N>,
-    /// Moment.
-    moment: Vector<N>,
-    /// Moments of inertia.
-    inertia: Vector<N>,
-}
-
-impl<N: Lane> Block<N> {
-    /// Those of the clumps from `first` on.
-    ///
-    /// # Safety
-    /// As many clumps as there are lanes stand from `first` on, and no other thread writes their rows meanwhile.
-    #[inline(always)]
-    unsafe fn of(rows: Rows, first: usize) -> Self {
-        // SAFETY: the caller's promise.
-        unsafe {
-            Self {
-                position: rows.position.load_block(first),
-                velocity: rows.velocity.load_block(first),
-                turn: Quaternion::from_row(rows.orientation.load_block(first)),
-                momentum: vector(rows.momentum.load_block(first)),
-                force: vector(rows.force.load_block(first)),
-                moment: vector(rows.moment.load_block(first)),
-                inertia: vector(rows.inertia.load_block(first)),
-            }
-        }
+/// Mass centres and reaches of some clumps, lane by lane, and how they move.
+///
+/// # Safety
+/// As many clumps as there are lanes stand from `first` on, and no other thread writes their rows meanwhile.
+#[inline(always)]
+unsafe fn read<N: Lane>(rows: Rows, first: usize) -> ([N; 4], Rigid<N>) {
+    // SAFETY: the caller's promise.
+    unsafe {
+        let velocity = rows.velocity.load_block(first);
+        let rigid = Rigid {
+            velocity: vector(velocity),
+            mass: velocity[3],
+            turn: Quaternion::from_row(rows.orientation.load_block(first)),
+            inertia: vector(rows.inertia.load_block(first)),
+            momentum: vector(rows.momentum.load_block(first)),
+            force: vector(rows.force.load_block(first)),
+            moment: vector(rows.moment.load_block(first)),
+        };
+        (rows.position.load_block(first), rigid)
     }
 }
 
 /// Kicks and drifts a block of clumps. Returns their largest speeds \[m/s\].
 ///
 /// # Safety
-/// As for [`Block::of`]; no other thread reads the rows meanwhile either.
+/// As for [`read`]; no other thread reads the rows meanwhile either.
 #[inline(always)]
 unsafe fn drift<N: Lane>(rows: Rows, first: usize, step: f64) -> [f64; 8] {
     // SAFETY: the caller's promise.
-    let Block { position, velocity, turn, momentum, force, moment, inertia } = unsafe { Block::<N>::of(rows, first) };
-    let (half, step) = (N::splat(0.5 * step), N::splat(step));
-    let moving = vector(velocity) + force * (half / velocity[3]);
-    let momentum = momentum + moment * half;
-    let place = vector(position) + moving * step;
-    let mean = mean_spin(inside(turn, inertia, momentum), inertia, half);
-    let (above, below) = tangent(mean, half);
-    let turn = (turn * Quaternion { scalar: below, vector: mean * (half * above) }).normalised();
-    let spin = turning(turn, inertia, momentum);
+    let (position, rigid) = unsafe { read::<N>(rows, first) };
+    let half = N::splat(0.5 * step);
+    let kicked = rigid.kicked(half);
+    let mean = kicked.mean_spin(half);
+    let turned = kicked.turned(mean, half);
+    let place = vector(position) + kicked.velocity * N::splat(step);
     let mut speeds = [0.0; 8];
     // SAFETY: the caller's promise.
     unsafe {
         rows.position.store_block(place.row_with(position[3]), first);
-        rows.velocity.store_block(moving.row_with(velocity[3]), first);
-        rows.orientation.store_block(turn.to_row(), first);
-        rows.momentum.store_block(momentum.row_with(N::zero()), first);
-        rows.spin.store_block(spin.row_with(N::zero()), first);
-        N::store(moving.length() + mean.length() * position[3], speeds.as_mut_ptr());
+        rows.velocity.store_block(kicked.velocity.row_with(rigid.mass), first);
+        rows.orientation.store_block(turned.turn.to_row(), first);
+        rows.momentum.store_block(kicked.momentum.row_with(N::zero()), first);
+        rows.spin.store_block(turned.spin().row_with(N::zero()), first);
+        N::store(kicked.velocity.length() + mean.length() * position[3], speeds.as_mut_ptr());
     }
     speeds
-}
-
-/// Numerator and denominator of tan|h|/|h| for h = w Δt/2 (as [`Quaternion::turned`]).
-#[inline(always)]
-fn tangent<N: Number>(spin: Vector<N>, half: N) -> (N, N) {
-    let square = (spin.dot(spin) * (half * half)).min(N::splat(FOLLOWED));
-    let above = N::splat(945.0) - square * (N::splat(105.0) - square);
-    let below = N::splat(945.0) - square * (N::splat(420.0) - N::splat(15.0) * square);
-    (above, below)
-}
-
-/// The mean of the angular velocities before and after a drift of twice `half` \[s\], in principal axes with these moments of inertia.
-#[inline(always)]
-fn mean_spin<N: Number>(begun: Vector<N>, inertia: Vector<N>, half: N) -> Vector<N> {
-    let Vector { x: a, y: b, z: c } = inertia;
-    let shares = Vector::new((b - c) / a, (c - a) / b, (a - b) / c);
-    let mut mean = begun;
-    for _ in 0..ITERATIONS {
-        let (above, below) = tangent(mean, half);
-        let factor = half * above / below;
-        let x = begun.x + factor * shares.x * (mean.y * mean.z);
-        let y = begun.y + factor * shares.y * (mean.z * x);
-        let z = begun.z + factor * shares.z * (x * y);
-        let next = Vector::new(x, y, z);
-        let change = next - mean;
-        let goes_on = change.dot(change).greater(N::splat(STANDS) * next.dot(next));
-        // What stands is not touched again: the bits do not depend on who stands in the other lanes.
-        mean = Vector::new(
-            N::select(goes_on, next.x, mean.x),
-            N::select(goes_on, next.y, mean.y),
-            N::select(goes_on, next.z, mean.z),
-        );
-        if !N::any(goes_on) {
-            break;
-        }
-    }
-    mean
 }
 
 /// Kicks a block of clumps. Returns their largest speeds at the middle of the next step \[m/s\].
@@ -393,18 +296,16 @@ fn mean_spin<N: Number>(begun: Vector<N>, inertia: Vector<N>, half: N) -> Vector
 #[inline(always)]
 unsafe fn kick<N: Lane>(rows: Rows, first: usize, step: f64) -> [f64; 8] {
     // SAFETY: the caller's promise.
-    let Block { position, velocity, turn, momentum, force, moment, inertia } = unsafe { Block::<N>::of(rows, first) };
+    let (position, rigid) = unsafe { read::<N>(rows, first) };
     let half = N::splat(0.5 * step);
-    let (kick, twist) = (force * (half / velocity[3]), moment * half);
-    let (moving, momentum) = (vector(velocity) + kick, momentum + twist);
-    let (now, next) = (turning(turn, inertia, momentum), turning(turn, inertia, momentum + twist));
+    let kicked = rigid.kicked(half);
     let mut speeds = [0.0; 8];
     // SAFETY: the caller's promise.
     unsafe {
-        rows.velocity.store_block(moving.row_with(velocity[3]), first);
-        rows.momentum.store_block(momentum.row_with(N::zero()), first);
-        rows.spin.store_block(now.row_with(N::zero()), first);
-        N::store((moving + kick).length() + next.length() * position[3], speeds.as_mut_ptr());
+        rows.velocity.store_block(kicked.velocity.row_with(rigid.mass), first);
+        rows.momentum.store_block(kicked.momentum.row_with(N::zero()), first);
+        rows.spin.store_block(kicked.spin().row_with(N::zero()), first);
+        N::store(kicked.kicked(half).fastest(position[3]), speeds.as_mut_ptr());
     }
     speeds
 }

@@ -3,13 +3,9 @@
 use super::{RigidBody, Turning};
 use crate::base::geometry::Quaternion;
 use crate::base::number::{Vector, larger};
+use crate::engine::bodies::loads::came_to;
 use crate::engine::state::{BoundaryState, CellState, Particles, State};
 use crate::scene::{Boundary, Scene};
-
-/// Where one of the scene's particles, which stands there \[m\], has come to without being brought back into a periodic cell.
-pub(crate) fn came_to(cell: Option<&CellState>, member: u32, place: Vector) -> Vector {
-    cell.map_or(place, |cell| place + cell.displacement(member).into())
-}
 
 /// Where it stands if it has come there \[m\].
 fn in_cell(cell: Option<&CellState>, member: u32, place: Vector) -> Vector {
@@ -84,16 +80,10 @@ pub(crate) fn kick_again(bodies: &[Option<RigidBody>], state: &mut State, step: 
         let State { boundaries, particles, cell, .. } = &mut *state;
         let moved = &mut boundaries[index];
         body.kick(moved, step);
-        fastest = larger(fastest, body.coming_speed(moved, step));
+        fastest = larger(fastest, body.kicked(moved, step).after.fastest(body.farthest));
         give_free_motion(body, moved, (particles, cell.as_ref()));
     }
     fastest
-}
-
-/// Largest speed of a sphere of a free group at the middle of a step of this length \[m/s\].
-pub(crate) fn coming_speed(bodies: &[Option<RigidBody>], state: &State, step: f64) -> f64 {
-    let free = bodies.iter().zip(&state.boundaries).filter_map(|(body, moved)| Some((body.as_ref()?, moved)));
-    free.fold(0.0, |most, (body, moved)| larger(most, body.coming_speed(moved, step)))
 }
 
 /// Gives the spheres of a group the motion that it has after a kick.

@@ -1,23 +1,19 @@
 //! Boundaries as rigid bodies: their mass and inertia, and how forces move their free axes.
 
-mod groups;
+mod inertia;
 mod kick;
+mod members;
 
-pub(crate) use groups::{came_to, coming_speed, kick_again, place_groups};
+pub(crate) use members::{kick_again, place_groups};
 
-use super::inertia;
+use super::{Body, Rigid};
 use crate::base::geometry::Quaternion;
+use crate::base::geometry::principal::principal;
 use crate::base::geometry::rotation::vector_near;
 use crate::base::number::Vector;
-use crate::engine::state::{BoundaryState, Orientation};
+use crate::engine::state::{BoundaryState, CellState, Orientation};
 use crate::scene::{Boundary, Scene};
-use nalgebra::{Matrix3, Matrix6, Vector6};
-
-/// Most iterations in which the rotation of a time step is found. Each gains a factor of about the angle of the step.
-const ITERATIONS: usize = 40;
-
-/// Change of an angular velocity, over its length, below which the iteration ends.
-const STANDS: f64 = 4.0 * f64::EPSILON;
+use nalgebra::Matrix3;
 
 /// How a body turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,8 +39,10 @@ pub(crate) struct RigidBody {
     pub offset: Vector,
     /// Inertia about the reference point in the orientation of time 0 \[kg m²\].
     inertia: Matrix3<f64>,
-    /// Its inverse.
-    inverse: Matrix3<f64>,
+    /// The turn of the axes of time 0 into the principal axes, where it turns freely.
+    frame: Quaternion,
+    /// Moments of inertia about these; infinite where nothing turns it \[kg m²\].
+    moments: Vector,
     /// Which of x, y, z are free.
     pub moves: [bool; 3],
     /// How it turns.
@@ -60,9 +58,6 @@ pub(crate) struct RigidBody {
     /// Dashpots to the ground \[N s/m, N m s/rad\].
     damping: [f64; 6],
 }
-
-/// A motion: velocity of the reference point \[m/s\] and angular velocity \[rad/s\].
-pub(crate) type Motion = [Vector; 2];
 
 /// The bodies of a scene; `None` for boundaries that only stand or shift.
 pub(crate) fn of(scene: &Scene) -> Vec<Option<RigidBody>> {
@@ -84,7 +79,8 @@ impl RigidBody {
             mass: 0.0,
             offset: Vector::zero(),
             inertia: Matrix3::zeros(),
-            inverse: Matrix3::zeros(),
+            frame: Quaternion::identity(),
+            moments: Vector::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
             moves,
             turning,
             farthest: 0.0,
@@ -95,6 +91,7 @@ impl RigidBody {
         };
         if members.is_empty() {
             body.fill_surface(scene, boundary);
+            body.find_axes();
             return Some(body);
         }
         for particle in members.iter().map(|&member| &scene.particles[member as usize]) {
@@ -108,8 +105,60 @@ impl RigidBody {
             body.largest = body.largest.max(radius);
         }
         body.offset = body.offset * (1.0 / body.mass);
-        body.inverse = body.inertia.try_inverse().unwrap_or_default();
+        body.find_axes();
         Some(body)
+    }
+
+    /// Finds the axes about which moments turn it, and the inertia about them.
+    fn find_axes(&mut self) {
+        match self.turning {
+            Turning::Still | Turning::Led => {}
+            Turning::About(axis) => {
+                let about = |k: usize| if k == axis { self.inertia[(k, k)] } else { f64::INFINITY };
+                self.moments = Vector::from([0, 1, 2].map(about));
+            }
+            Turning::Freely => {
+                let (moments, frame) = principal(self.inertia.transpose().into());
+                (self.moments, self.frame) = (moments.into(), frame);
+            }
+        }
+    }
+
+    /// How its free axes move now. What does not shift has neither force nor velocity here, and its mass may not be given.
+    pub(crate) fn rigid(&self, moved: &BoundaryState) -> Rigid {
+        let orientation = Quaternion::from(moved.orientation);
+        Rigid {
+            velocity: self.along_free(moved.velocity),
+            mass: if self.moves == [false; 3] { 1.0 } else { self.mass },
+            turn: if self.turning == Turning::Freely { orientation * self.frame } else { self.frame },
+            inertia: self.moments,
+            momentum: self.about_free(moved.inertial.angular_momentum),
+            force: self.along_free(moved.inertial.load),
+            moment: self.about_free(moved.inertial.couple),
+        }
+    }
+
+    /// What the others see of it.
+    pub(super) fn of_boundary<'a>(
+        &'a self,
+        number: usize,
+        moved: &'a BoundaryState,
+        cell: Option<&'a CellState>,
+    ) -> Body<'a> {
+        let orientation = Quaternion::from(moved.orientation);
+        Body {
+            number,
+            rigid: self.rigid(moved),
+            moves: self.moves,
+            point: moved.pivot.into(),
+            mass_centre: orientation.turn(self.offset),
+            members: &self.members,
+            reach: self.farthest,
+            smallest: self.smallest,
+            braking: [moved.inertial.braking_force.into(), moved.inertial.braking_moment.into()],
+            boundary: Some((self, moved)),
+            cell,
+        }
     }
 
     /// Takes over what the scene gives for a surface.
@@ -121,7 +170,6 @@ impl RigidBody {
         }
         self.offset = Vector::from(centre) - boundary.reference.into();
         inertia::add_particle(&mut self.inertia, mass, 0.0, self.offset);
-        self.inverse = self.inertia.try_inverse().unwrap_or_default();
         self.smallest = scene.particles.iter().map(|particle| particle.radius).fold(f64::INFINITY, f64::min);
     }
 
@@ -149,18 +197,6 @@ impl RigidBody {
         })
     }
 
-    /// The angular velocity that an angular momentum gives it in an orientation \[rad/s\].
-    pub(crate) fn spin(&self, orientation: Quaternion, momentum: Vector) -> Vector {
-        match self.turning {
-            Turning::Still | Turning::Led => Vector::zero(),
-            Turning::About(axis) => {
-                let share = momentum.to_array()[axis] / self.inertia[(axis, axis)];
-                Vector::from([0, 1, 2].map(|k| if k == axis { share } else { 0.0 }))
-            }
-            Turning::Freely => orientation.turn(inertia::times(&self.inverse, orientation.conjugate().turn(momentum))),
-        }
-    }
-
     /// Whether it is a surface, not a group of particles.
     pub(crate) fn is_surface(&self) -> bool {
         self.members.is_empty()
@@ -172,17 +208,25 @@ impl RigidBody {
         if self.moves == [false; 3] { 0.0 } else { free.dot(free) / self.mass }
     }
 
-    /// The acceleration that its present load gives to its points this far from the point of reference \[m\], at most \[m/s²\].
-    pub(crate) fn acceleration(&self, moved: &BoundaryState, extent: f64) -> f64 {
-        let [along, about] = self.answer(moved);
-        along.length() + about.length() * extent
+    /// The acceleration of each freedom by a unit load along it \[1/kg, 1/(kg m²)\].
+    pub(crate) fn yields(&self, moved: &BoundaryState) -> [f64; 6] {
+        let [a, b, c] = self.turned_by_units(moved).map(Vector::to_array);
+        let [x, y, z] = self.moves.map(|is_free| if is_free { 1.0 / self.mass } else { 0.0 });
+        [x, y, z, a[0], b[1], c[2]]
     }
 
-    /// The acceleration of its point of reference \[m/s²\] and the angular one \[rad/s²\] that its present load gives.
-    pub(crate) fn answer(&self, moved: &BoundaryState) -> Motion {
-        let ([x, y, z], [a, b, c]) = (moved.inertial.load, moved.inertial.couple);
-        let answer = self.mobility(moved) * Vector6::new(x, y, z, a, b, c);
-        [Vector::new(answer[0], answer[1], answer[2]), Vector::new(answer[3], answer[4], answer[5])]
+    /// The largest acceleration \[1/kg\] and angular acceleration \[1/(kg m²)\] that unit loads at this arm \[m\] give, or above, times
+    /// these factors.
+    pub(crate) fn answers(&self, arm: f64, [linear, angular]: [f64; 2]) -> [f64; 2] {
+        let shift = if self.moves == [false; 3] { 0.0 } else { 1.0 / self.mass };
+        let spin = angular * self.moments.to_array().map(|moment| 1.0 / moment).iter().sum::<f64>();
+        [linear * shift + spin * arm * arm, spin]
+    }
+
+    /// The acceleration that its present load gives to its points this far from the point of reference \[m\], at most \[m/s²\].
+    pub(crate) fn acceleration(&self, moved: &BoundaryState, extent: f64) -> f64 {
+        let [along, about] = self.rigid(moved).answer();
+        along.length() + about.length() * extent
     }
 
     /// Which of its six freedoms are free.
@@ -218,63 +262,29 @@ impl RigidBody {
 
     /// Turns the free axes by a drift of `step` \[s\]. Returns the rotation vector of the drift \[rad\].
     pub(crate) fn drift(&self, moved: &mut BoundaryState, step: f64) -> Vector {
-        let orientation = Quaternion::from(moved.orientation);
-        let momentum = Vector::from(moved.inertial.angular_momentum);
-        let spin = self.drift_spin(orientation, momentum, step);
-        let orientation = orientation.turned(spin, step);
+        let rigid = self.rigid(moved);
+        let spin = match self.turning {
+            Turning::Freely => rigid.turn.turn(rigid.mean_spin(0.5 * step)),
+            _ => rigid.spin(),
+        };
+        let orientation = Quaternion::from(moved.orientation).turned(spin, step);
         moved.orientation = Orientation::from(orientation);
         moved.rotation = match self.turning {
             Turning::Freely => vector_near(orientation, moved.rotation.into()).to_array(),
             Turning::About(_) => (Vector::from(moved.rotation) + spin * step).to_array(),
             Turning::Still | Turning::Led => moved.rotation,
         };
-        moved.angular_velocity = self.spin(orientation, momentum).to_array();
+        moved.angular_velocity = self.rigid(moved).spin().to_array();
         spin * step
     }
 
-    /// The angular velocity \[rad/s\] that turns the body through a drift of `step` \[s\] with this angular momentum.
-    ///
-    /// ```text
-    /// w = (w₀ + w₁)/2,  w₁ = J⁻¹ R(w Δt)ᵀ J w₀        (in axes that turn with the body)
-    /// ```
-    ///
-    /// A turn about the mean of the angular velocities before and after leaves the component of J w along it as it
-    /// is, hence the kinetic energy w · J w/2, too; the angular momentum in space does not change (Simo and Wong
-    /// 1991). The map is of second order and its own inverse in reversed time. For a sphere it is exact.
-    fn drift_spin(&self, orientation: Quaternion, momentum: Vector, step: f64) -> Vector {
-        let before = self.spin(orientation, momentum);
-        if self.turning != Turning::Freely {
-            return before;
-        }
-        let mut mean = before;
-        for _ in 0..ITERATIONS {
-            let turned = orientation.turned(mean, step);
-            // The angular velocity afterwards, carried back by the turn: what the body itself sees.
-            let seen = inertia::times(&self.inverse, turned.conjugate().turn(momentum));
-            let next = (before + orientation.turn(seen)) * 0.5;
-            let change = (next - mean).length();
-            mean = next;
-            if change <= STANDS * next.length() {
-                break;
-            }
-        }
-        mean
-    }
-
-    /// The acceleration that unit forces and moments give to its free axes: 1/mass \[1/kg\] and the inverse of the
-    /// inertia in global axes \[1/(kg m²)\].
-    pub(crate) fn mobility(&self, moved: &BoundaryState) -> Matrix6<f64> {
-        let mut mobility = Matrix6::zeros();
-        let orientation = Quaternion::from(moved.orientation);
-        for axis in 0..3 {
-            mobility[(axis, axis)] = if self.moves[axis] { 1.0 / self.mass } else { 0.0 };
-            let unit = Vector::from([0, 1, 2].map(|k| f64::from(u8::from(k == axis))));
-            let spin = self.spin(orientation, self.about_free(unit.to_array())).to_array();
-            for (k, part) in spin.into_iter().enumerate() {
-                mobility[(3 + k, 3 + axis)] = part;
-            }
-        }
-        mobility
+    /// The angular accelerations that unit moments about x, y, z give to its free axes \[1/(kg m²)\].
+    pub(crate) fn turned_by_units(&self, moved: &BoundaryState) -> [Vector; 3] {
+        let rigid = self.rigid(moved);
+        [0, 1, 2].map(|axis| {
+            let unit = [0, 1, 2].map(|k| f64::from(u8::from(k == axis)));
+            Rigid { momentum: self.about_free(unit), ..rigid }.spin()
+        })
     }
 
     /// Starts with the momentum and angular momentum that its spheres have; a surface starts at rest.
@@ -295,9 +305,8 @@ impl RigidBody {
             moved.velocity[axis] = velocity[axis];
         }
         if self.spins() {
-            let angular = self.about_free(angular.to_array());
-            moved.inertial.angular_momentum = angular.to_array();
-            moved.angular_velocity = self.spin(Quaternion::from(moved.orientation), angular).to_array();
+            moved.inertial.angular_momentum = self.about_free(angular.to_array()).to_array();
+            moved.angular_velocity = self.rigid(moved).spin().to_array();
         }
     }
 }
