@@ -45,6 +45,7 @@ clump = "pair"
 list = [{ position = [0.0, 0.02, 0.00195], velocity = [0.1, 0.0, 0.0] }]
 [particles.loose]
 material = "a"
+temperature = 300.0
 list = [{ position = [0.0056, 0.02, 0.00195], radius = 0.002 }]
 [particles.rods]
 material = "a"
