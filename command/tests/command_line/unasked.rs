@@ -122,7 +122,7 @@ fn a_run_goes_on_with_its_own_scene_files_settings_and_inputs_only() {
     fs::write(&scene, &text).unwrap();
     fs::write(place.at("p.csv"), "x,y,z,radius\n0,0,0.012,0.005\n0.011,0.001,0.012,0.005\n").unwrap();
     let table = |name: &str, last: &str| {
-        fs::write(place.at(name), format!("time,floor.displacement.z\n0,0\n{last}\n")).unwrap()
+        fs::write(place.at(name), format!("time,floor.displacement.z\n0,0\n{last}\n")).unwrap();
     };
     table("a.csv", "0.01,1e-3");
     table("b.csv", "0.02,1e-3");

@@ -19,7 +19,7 @@ const STEPS_OF_DENSE_FLOW: f64 = 6000.0;
 /// Time steps in which free fall may use up the speed that was foreseen.
 const STEPS_OF_FALL: f64 = 50.0;
 
-/// Time steps that anything may have made from rest, by its present load alone, before what came of it is seen.
+/// Time steps that anything may have made from rest, by the load from outside alone, before what came of it is seen.
 const STEPS_OF_START: f64 = 2.0;
 
 /// Way of both bodies that is always foreseen, over the mean overlap of the contacts.
@@ -100,7 +100,9 @@ impl Simulation {
         let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
         let is_dense = is_far && self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
         let fastest = fastest.max(driven);
-        let begun = STEPS_OF_START * STEPS_OF_START * answer * step * step;
+        // Contacts that are out of balance are in the network as they are; a load from outside may still make contacts.
+        let from_outside = self.acceleration_of_bodies().fold(acceleration, f64::max);
+        let begun = STEPS_OF_START * STEPS_OF_START * from_outside * step * step;
         let way = margin.max(way(false, fastest * faster / FASTER, step)).max(way(is_dense, fastest, step)).max(begun);
         let margin = margin + strained;
         let clock = &self.state.clock;
@@ -131,10 +133,14 @@ impl Simulation {
         let rows = particles.force.iter().zip(&particles.velocity).zip(&particles.owner);
         let free = rows.filter(|(_, owner)| **owner == 0).map(|(rows, _)| square(rows));
         let clumps = self.state.clumps.force.iter().zip(&self.state.clumps.velocity).map(square);
-        let bodies = self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
+        self.acceleration_of_bodies().fold(free.chain(clumps).fold(0.0, f64::max).sqrt(), f64::max)
+    }
+
+    /// The acceleration of each boundary that forces move \[m/s²\].
+    fn acceleration_of_bodies(&self) -> impl Iterator<Item = f64> + '_ {
+        self.bodies.iter().zip(&self.state.boundaries).filter_map(|(body, moved)| {
             let body = body.as_ref().filter(|body| body.is_free())?;
             Some(body.acceleration(moved, body.farthest))
-        });
-        bodies.fold(free.chain(clumps).fold(0.0, f64::max).sqrt(), f64::max)
+        })
     }
 }
