@@ -179,7 +179,9 @@ fn wrong_values_are_refused_in_the_words_of_the_scene_and_change_nothing() {
 
 #[test]
 fn parameters_that_make_no_scene_are_told_at_the_start_and_can_be_mended() {
-    let unit = Unpacked::new();
+    let mut strict = source();
+    strict.text = strict.text.replace("[run]\n", "[run]\nstrict_step = true\n");
+    let unit = Unpacked::of(&strict, "strict");
     let host = Host::instantiated(&unit);
     // the unstable step is refused by the run, not by the number alone
     assert_eq!(host.set("run.time_step", 1.0), Status::Ok);
