@@ -100,8 +100,8 @@ impl Simulation {
         let speed = stability::foreseen_speed(fastest, driven, faster).max(rest).max(falling);
         let is_dense = is_far && self.system().impact(speed, acceleration).is_none_or(|impacts| impacts <= root);
         let fastest = fastest.max(driven);
-        // Contacts that are out of balance are in the network as they are; a load from outside may still make contacts.
-        let from_outside = self.acceleration_of_bodies().fold(acceleration, f64::max);
+        // A load from outside may make contacts, as far as nothing holds against it.
+        let from_outside = self.acceleration_of_bodies().fold(acceleration, f64::max).min(answer);
         let begun = STEPS_OF_START * STEPS_OF_START * from_outside * step * step;
         let way = margin.max(way(false, fastest * faster / FASTER, step)).max(way(is_dense, fastest, step)).max(begun);
         let margin = margin + strained;
