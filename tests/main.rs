@@ -36,6 +36,7 @@ mod motions;
 mod neighbours;
 mod nodes;
 mod on_axis;
+mod own_properties;
 mod pace;
 mod packings;
 mod passing;

@@ -16,6 +16,7 @@ mod motion;
 mod named_tables;
 mod particles;
 mod place;
+mod properties;
 pub(super) mod raw_tables;
 mod selection;
 mod set_reader;

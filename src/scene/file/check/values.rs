@@ -5,6 +5,7 @@ use super::named_tables::is_name;
 use crate::base::document::{Faults, Mistake};
 use crate::base::quantity::SetIndex;
 use crate::laws::bond::creation::ListedPairs;
+use crate::laws::contact::Properties;
 use crate::scene::file::tables::is_positive_definite;
 use crate::scene::{AxisMotion, Boundary, ColumnStart, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use std::collections::BTreeSet;
@@ -182,6 +183,16 @@ fn run(draft: &SceneDraft, at: &mut Table) {
     }
 }
 
+/// Properties that laws declare.
+fn properties(given: &Properties, at: &mut Table) {
+    for (property, value) in given.iter() {
+        if let Err(message) = property.range.check(value) {
+            let expected = message.trim_start_matches("expected ").split(", found").next().unwrap_or_default();
+            at.wrong(property.name, format!("{value:?}"), expected);
+        }
+    }
+}
+
 /// `[material.<name>]`, `[pair.<a>.<b>]` and which of them the contact laws are for.
 fn materials(draft: &SceneDraft, at: &mut Table) {
     for material in &draft.materials {
@@ -191,10 +202,12 @@ fn materials(draft: &SceneDraft, at: &mut Table) {
         if let Some(ratio) = material.poissons_ratio.filter(|ratio| !(0.0..=0.5).contains(ratio)) {
             at.wrong("poissons_ratio", format!("{ratio:?}"), "a number from 0 to 0.5");
         }
+        properties(&material.properties, at);
     }
     let count = draft.materials.len();
     at.name = "pair".to_owned();
     at.length("", draft.pairs.len(), count * count);
+    draft.pairs.iter().for_each(|pair| properties(pair, at));
     if draft.pairs.len() == count * count {
         at.mirrored("", count, |one, other| draft.pairs[one] == draft.pairs[other]);
     }

@@ -16,7 +16,7 @@ pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
 
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
-use crate::laws::contact::Scheme;
+use crate::laws::contact::{Properties, Scheme};
 use crate::scene::exchange::Outside;
 use crate::scene::{Accuracy, MotionPlane, ParticleShape};
 use serde::Deserialize;
@@ -107,6 +107,9 @@ pub(in crate::scene::file) struct MaterialTable {
     pub(in crate::scene::file) specific_heat: Option<Positive>,
     /// Young's modulus of the real bodies \[Pa\].
     pub(in crate::scene::file) real_youngs_modulus: Option<Positive>,
+    /// Properties that laws declare.
+    #[serde(skip)]
+    pub(in crate::scene::file) properties: Properties,
 }
 
 /// `[contact.<name>]`, without its sub-models.
