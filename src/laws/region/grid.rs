@@ -27,6 +27,12 @@ impl Grid {
         self.counts.iter().map(|&count| count as usize).product()
     }
 
+    /// Whether each face between cells lies above the one before it, which rounding may hide of very many cells.
+    pub fn is_divided(&self) -> bool {
+        (0..3)
+            .all(|axis| (0..self.counts[axis] as usize).all(|cell| self.plane(axis, cell) < self.plane(axis, cell + 1)))
+    }
+
     /// Edges of a cell \[m\].
     pub fn edges(&self) -> [f64; 3] {
         let [lower, upper] = self.corners;
