@@ -28,6 +28,7 @@ mod floors;
 mod foreseen_step;
 mod forged_states;
 mod free_groups;
+mod grids;
 mod heat;
 mod lanes;
 mod loaded;

@@ -4,6 +4,7 @@ use serde::de::value::{Error as ReadError, F64Deserializer};
 use serde::de::{DeserializeOwned, Error, IntoDeserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
+use std::num::NonZeroU32;
 
 /// Declares a checked `f64`: its name, what it must satisfy, and the words for that in a message.
 macro_rules! checked {
@@ -179,6 +180,20 @@ impl<'de> Visitor<'de> for Numbers {
             numbers.push(number);
         }
         Ok(numbers)
+    }
+}
+
+/// Cells along each axis, each at least 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Counts(pub(crate) [u32; 3]);
+
+impl<'de> Deserialize<'de> for Counts {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let counts = Vec::<NonZeroU32>::deserialize(deserializer)?;
+        match counts[..] {
+            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
+            _ => Err(D::Error::custom(format!("expected [nx, ny, nz], found {} numbers", counts.len()))),
+        }
     }
 }
 

@@ -15,6 +15,7 @@ mod damping;
 pub mod exchange;
 pub(crate) mod file;
 mod governing;
+mod grid;
 pub(crate) mod heat;
 pub(crate) mod import;
 mod models;
@@ -45,6 +46,7 @@ pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use governing::GoverningLaws;
+pub use grid::{Grid, GridOutput};
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
@@ -125,6 +127,8 @@ pub struct SceneDraft {
     pub heat_sources: Vec<HeatSource>,
     /// Parts of space of which stress, porosity and motion are outputs, in the order of the file.
     pub regions: Vec<Region>,
+    /// Boxes divided into cells, each of which is looked at, in the order of the file.
+    pub grids: Vec<Grid>,
     /// The box that particles may not leave \[m\]: lower and upper corner.
     pub domain: Option<[[f64; 3]; 2]>,
     /// What happens to particles outside of it.

@@ -7,7 +7,7 @@ use crate::engine::state::Clock;
 use crate::interface::{Interface, MOST_COLUMNS};
 use crate::laws::contact::{Material, MaterialPair, Properties, property};
 use crate::scene::exchange::Amount;
-use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Grid, Scene, Step};
 
 /// Part of the stable step above which a given step is said to be near it.
 const NEAR_THE_BOUND: f64 = 0.8;
@@ -41,6 +41,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(columns(scene));
     remarks.extend(passed_through(scene));
     remarks.extend(cracks(scene));
+    remarks.extend(cells(scene));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
     remarks.extend(falling(scene));
@@ -65,6 +66,22 @@ fn cracks(scene: &Scene) -> Vec<String> {
     let told = scene.boundaries.iter().filter_map(crack);
     told.map(|(name, crack)| format!("[boundary.{name}] mesh: {crack}; weld_distance above that makes them one"))
         .collect()
+}
+
+/// On grids whose cells are smaller than particles.
+fn cells(scene: &Scene) -> Vec<String> {
+    let largest = 2.0 * scene.radii().fold(0.0, f64::max);
+    let small = |grid: &Grid| {
+        let least = grid.shape.edges().into_iter().fold(f64::INFINITY, f64::min);
+        (least < largest).then(|| {
+            format!(
+                "[grid.{}] counts: cells are {least:.3e} m wide and particles up to {largest:.3e} m; fields show single particles there, \
+                 cells of three diameters show the mean of many",
+                grid.name
+            )
+        })
+    };
+    scene.grids.iter().filter_map(small).collect()
 }
 
 /// On a given step near the stable one.
@@ -344,7 +361,7 @@ fn idle(scene: &Scene) -> Vec<String> {
 /// On columns of `history.csv` that are left out because there would be very many.
 fn columns(scene: &Scene) -> Option<String> {
     let interface = Interface::of(scene);
-    let all = interface.outputs().filter(|(_, variable)| variable.node().is_none()).count();
+    let all = interface.outputs().filter(|(_, variable)| variable.element().is_none()).count();
     (scene.output.columns.is_none() && all > MOST_COLUMNS).then(|| {
         format!(
             "[output] columns: history.csv has {} of {all} outputs, without those of groups of particles; columns names those that you \

@@ -20,6 +20,7 @@ use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable,
     ParticlesTable, RunTable, TABLES, Triple,
 };
+use crate::scene::grid::GridKeys;
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
 
@@ -59,6 +60,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) heat_sources: Named<HeatSourceTable>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
+    /// `[grid.<name>]`
+    pub(super) grids: Named<GridKeys>,
     /// `[insertion.<name>]`
     pub(super) insertions: Named<InsertionKeys>,
     /// `[outlet.<name>]`
@@ -158,6 +161,7 @@ impl RawTables {
         let heat = document.read("heat", faults);
         let heat_sources = all(document, "heat_source", faults);
         let regions = all(document, "region", faults);
+        let grids = all(document, "grid", faults);
         let insertions = columns::insertions(document, &models.columns, faults);
         let outlets = all(document, "outlet", faults);
         let meters = all(document, "flow_meter", faults);
@@ -189,6 +193,7 @@ impl RawTables {
             heat,
             heat_sources,
             regions,
+            grids,
             insertions,
             outlets,
             meters,

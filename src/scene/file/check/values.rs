@@ -7,7 +7,7 @@ use crate::base::quantity::SetIndex;
 use crate::laws::bond::creation::ListedPairs;
 use crate::laws::contact::Properties;
 use crate::scene::file::tables::is_positive_definite;
-use crate::scene::{AxisMotion, Boundary, ColumnStart, Insertion, Outlet, OutletPlace, SceneDraft, Step};
+use crate::scene::{AxisMotion, Boundary, ColumnStart, Grid, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use std::collections::BTreeSet;
 
 /// Reports every value that its key does not take.
@@ -24,6 +24,10 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
         body(boundary, draft, &mut at);
     }
     bonds(draft, &mut at);
+    for it in &draft.grids {
+        at.name = format!("grid.{}", it.name);
+        grid(it, &mut at);
+    }
     for insertion in &draft.insertions {
         at.name = format!("insertion.{}", insertion.name);
         comes(insertion, draft, &mut at);
@@ -35,6 +39,19 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     for region in &draft.regions {
         at.name = format!("region.{}", region.name);
         at.points("follows", region.follows.map_or(0, |it| it.index()), draft.boundaries.len().max(1));
+    }
+}
+
+/// `[grid.<name>]`
+fn grid(grid: &Grid, at: &mut Table) {
+    let [lower, upper] = grid.shape.corners;
+    at.finite("box", &[lower, upper].concat());
+    if let Some(axis) = (0..3).find(|&axis| lower[axis] >= upper[axis]) {
+        let found = format!("{:?} to {:?} along {}", lower[axis], upper[axis], ["x", "y", "z"][axis]);
+        at.wrong("box", found, "the lower corner before the upper one");
+    }
+    if grid.shape.counts.contains(&0) {
+        at.wrong("counts", format!("{:?}", grid.shape.counts), "at least one cell along each axis");
     }
 }
 
@@ -111,7 +128,7 @@ impl Table<'_, '_, '_> {
 /// Names are names, and each is there once in its kind.
 fn names(draft: &SceneDraft, at: &mut Table) {
     let materials: Vec<&str> = draft.materials.iter().map(|it| &*it.name).collect();
-    let kinds: [(&str, Vec<&str>); 12] = [
+    let kinds: [(&str, Vec<&str>); 13] = [
         ("material", materials),
         ("contact", draft.contacts.iter().map(|it| &*it.name).collect()),
         ("bond", draft.bonds.iter().map(|it| &*it.name).collect()),
@@ -120,6 +137,7 @@ fn names(draft: &SceneDraft, at: &mut Table) {
         ("damping", draft.damping.iter().map(|it| &*it.name).collect()),
         ("force", draft.forces.iter().map(|it| &*it.name).collect()),
         ("region", draft.regions.iter().map(|it| &*it.name).collect()),
+        ("grid", draft.grids.iter().map(|it| &*it.name).collect()),
         ("insertion", draft.insertions.iter().map(|it| &*it.name).collect()),
         ("outlet", draft.outlets.iter().map(|it| &*it.name).collect()),
         ("probe", draft.probes.iter().map(|it| &*it.name).collect()),

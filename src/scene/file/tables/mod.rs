@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 23] = [
+pub(in crate::scene::file) const TABLES: [&str; 24] = [
     "about",
     "run",
     "gravity",
@@ -41,6 +41,7 @@ pub(in crate::scene::file) const TABLES: [&str; 23] = [
     "heat",
     "heat_source",
     "region",
+    "grid",
     "insertion",
     "outlet",
     "flow_meter",
