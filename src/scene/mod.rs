@@ -14,6 +14,7 @@ mod column;
 mod damping;
 pub mod exchange;
 pub(crate) mod file;
+mod fluid;
 mod governing;
 pub(crate) mod heat;
 pub(crate) mod import;
@@ -43,6 +44,7 @@ pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
+pub use fluid::{Fluid, FluidVelocity};
 pub use governing::GoverningLaws;
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
@@ -123,6 +125,8 @@ pub struct SceneDraft {
     pub heat: HeatSettings,
     /// What warms or cools particles, in the order of the file.
     pub heat_sources: Vec<HeatSource>,
+    /// The fluid around the particles, if there is one.
+    pub fluid: Option<Fluid>,
     /// Parts of space of which stress, porosity and motion are outputs, in the order of the file.
     pub regions: Vec<Region>,
     /// The box that particles may not leave \[m\]: lower and upper corner.

@@ -11,6 +11,7 @@ mod contacts;
 mod damping;
 mod exchange;
 mod finding;
+mod fluid;
 mod heat;
 mod motion;
 mod named_tables;
@@ -62,6 +63,7 @@ pub(super) fn scene(
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
     let heat_sources = heat::sources(&written, &born, &mut faults);
+    let fluid = fluid::fluid(&written, source, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
@@ -84,6 +86,7 @@ pub(super) fn scene(
         forces,
         heat: written.heat.settings(),
         heat_sources,
+        fluid,
         regions,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
         domain: written.domain.map(|domain| domain.corners.0),
@@ -154,6 +157,7 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
     let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft));
     let others = others.chain(column::objections(draft)).chain(crate::scene::heat::objections(draft));
+    let others = others.chain(crate::scene::fluid::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);
