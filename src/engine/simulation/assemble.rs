@@ -12,6 +12,7 @@ use crate::engine::contacts::coefficients::{self, CoefficientTable};
 use crate::engine::contacts::particles::ContactPass;
 use crate::engine::contacts::surfaces::SurfacePass;
 use crate::engine::flow;
+use crate::engine::fluid;
 use crate::engine::neighbours;
 use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Deepest, Foresight, Ledger, Losses, Neighbours, Nodes, Pace,
@@ -49,6 +50,7 @@ pub(super) fn state(scene: &Scene) -> State {
         cell: Cell::begun(scene),
         clumps: ClumpBodies::begun(scene),
         heat: transfer::begun(scene),
+        fluid: fluid::begun(scene),
         particles,
     }
 }

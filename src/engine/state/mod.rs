@@ -12,6 +12,7 @@ pub mod clumps;
 pub mod contacts;
 pub mod deepest;
 pub mod exchange;
+pub mod fluid;
 pub mod foresight;
 pub mod heat;
 mod history;
@@ -35,6 +36,7 @@ pub use clumps::{ClumpRows, Clumps};
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use deepest::{Deepest, Named};
 pub use exchange::Exchange;
+pub use fluid::FluidState;
 pub use foresight::Foresight;
 pub use heat::Heat;
 pub use history::History;
@@ -101,6 +103,8 @@ pub struct State {
     pub cell: Option<CellState>,
     /// Temperatures, where heat flows.
     pub heat: Option<Heat>,
+    /// The fluid around the particles, where the scene has one.
+    pub fluid: Option<FluidState>,
 }
 
 clone_in_place!(State {
@@ -126,7 +130,8 @@ clone_in_place!(State {
     damping_impulse,
     exchange,
     cell,
-    heat
+    heat,
+    fluid
 });
 
 impl State {
@@ -216,7 +221,8 @@ impl State {
         let net = self.exchange.iter().map(|exchange| &exchange.net);
         let exchanged = net.flat_map(|net| [net.kinetic, net.elastic, net.potential, net.turnover]);
         let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(self.works());
-        all.map(f64::abs).sum::<f64>().is_finite()
+        let fluid = self.fluid.iter().map(|fluid| fluid.work);
+        all.chain(fluid).map(f64::abs).sum::<f64>().is_finite()
     }
 
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
@@ -240,6 +246,9 @@ impl State {
         }
         if let Some(heat) = &mut self.heat {
             heat.begin_counting();
+        }
+        if let Some(fluid) = &mut self.fluid {
+            fluid.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {
