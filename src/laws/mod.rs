@@ -7,3 +7,4 @@ mod kept;
 pub mod motion;
 pub mod region;
 pub mod surface;
+pub mod wear;

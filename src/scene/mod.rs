@@ -47,7 +47,7 @@ pub use governing::GoverningLaws;
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
-pub use output::Output;
+pub use output::{EnergyBins, Impacts, Output};
 pub(crate) use parameters::range_of;
 pub use parameters::{Parameter, Range};
 pub(crate) use plane::objections as plane_objections;

@@ -7,6 +7,7 @@ use crate::laws::contact::{
     NormalRow, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
 };
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
+use crate::laws::wear::{self, Wear, WearRow};
 
 /// The sub-models, rules of breakage and shapes that scenes may name: those of the program, and those that another crate adds.
 ///
@@ -34,6 +35,8 @@ pub struct Models {
     pub(crate) breakage: Vec<&'static BreakageRow>,
     /// Shapes of boundaries.
     pub(crate) shapes: Vec<&'static ShapeRow>,
+    /// Models of wear.
+    pub(crate) wear: Vec<&'static WearRow>,
     /// Columns of particles that scenes may ask for.
     pub(crate) columns: Vec<&'static Column>,
 }
@@ -55,6 +58,7 @@ impl Models {
             heat: contact::heat::STANDARD.to_vec(),
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
+            wear: wear::STANDARD.to_vec(),
             columns: vec![&TEMPERATURE],
         }
     }
@@ -98,6 +102,12 @@ impl Models {
     /// The same and a shape of boundaries, in place of one of the same key.
     pub fn with_shape<K: ShapeKeys>(mut self) -> Self {
         put(&mut self.shapes, ShapeRow::of::<K>(), |row| row.key);
+        self
+    }
+
+    /// The same and a model of wear, in place of one of the same name.
+    pub fn with_wear<W: Wear>(mut self) -> Self {
+        put(&mut self.wear, WearRow::of::<W>(), WearRow::name);
         self
     }
 

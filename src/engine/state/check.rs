@@ -13,7 +13,7 @@ use super::{
 };
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
-const MOST: u64 = 1 << 48;
+pub(super) const MOST: u64 = 1 << 48;
 
 /// Why a state cannot be one of its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -118,6 +118,10 @@ impl State {
         demand(self.heat.is_some() == other.heat.is_some(), "heat", 0, "temperatures where heat flows")?;
         if let (Some(heat), Some(other)) = (&self.heat, &other.heat) {
             heat.check(other, self.particles.slot.len(), self.exchange.is_none())?;
+        }
+        demand(self.traces.is_some() == other.traces.is_some(), "traces", 0, "traces where the scene asks for them")?;
+        if let (Some(traces), Some(other)) = (&self.traces, &other.traces) {
+            traces.check(other, self.particles.slot.len())?;
         }
         let same = "as many as the scene has";
         let declared = self.particles.declared.len();

@@ -24,6 +24,7 @@ pub mod pace;
 pub mod particles;
 mod plain;
 pub mod snapshot;
+pub mod traces;
 
 pub use bonds::{BondList, Break};
 pub use boundaries::{BoundaryState, Orientation, Stand};
@@ -44,6 +45,7 @@ pub use nodes::Nodes;
 pub use number::InsertedParticle;
 pub use pace::Pace;
 pub use particles::{GONE, IMAGE, Particles};
+pub use traces::{Collision, FacetTraces, Impact, ImpactBin, Traces};
 
 pub use crate::base::number::Row;
 
@@ -101,6 +103,8 @@ pub struct State {
     pub cell: Option<CellState>,
     /// Temperatures, where heat flows.
     pub heat: Option<Heat>,
+    /// What contacts leave behind, where the scene asks for it.
+    pub traces: Option<Traces>,
 }
 
 clone_in_place!(State {
@@ -126,7 +130,8 @@ clone_in_place!(State {
     damping_impulse,
     exchange,
     cell,
-    heat
+    heat,
+    traces
 });
 
 impl State {
@@ -215,7 +220,8 @@ impl State {
         let bonds = self.bonds.iter().flat_map(|list| [list.relaxed, list.damped, list.released]);
         let net = self.exchange.iter().map(|exchange| &exchange.net);
         let exchanged = net.flat_map(|net| [net.kinetic, net.elastic, net.potential, net.turnover]);
-        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(self.works());
+        let traces = self.traces.iter().flat_map(Traces::sums);
+        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(traces).chain(self.works());
         all.map(f64::abs).sum::<f64>().is_finite()
     }
 
@@ -240,6 +246,9 @@ impl State {
         }
         if let Some(heat) = &mut self.heat {
             heat.begin_counting();
+        }
+        if let Some(traces) = &mut self.traces {
+            traces.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

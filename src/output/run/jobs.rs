@@ -20,7 +20,9 @@ pub(crate) fn frame(simulation: &Simulation, time: f64) -> Job {
     let bonds = (!scene.bonds.is_empty()).then(|| simulation.bonds());
     let boundaries =
         output.boundaries.then(|| (simulation.state().boundaries.clone(), simulation.state().nodes.clone()));
+    let traces = simulation.state().traces.as_ref().filter(|_| output.boundaries);
+    let traces = traces.map(|traces| traces.boundaries.clone());
     let cell = simulation.state().cell.clone().map(Box::new);
     let clumps = scene.has_clumps().then(|| Box::new(simulation.state().clumps.clone()));
-    Job::Frame { time, particles, contacts, bonds, boundaries, cell, clumps }
+    Job::Frame { time, particles, contacts, bonds, boundaries, traces, cell, clumps }
 }
