@@ -1,8 +1,8 @@
 //! What a run writes.
 
 use crate::base::quantity::Positive;
-use std::num::NonZeroU32;
 use serde::{Deserialize, Deserializer};
+use std::num::NonZeroU32;
 
 /// `[output]`: what a run writes; what is absent is not computed.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -28,14 +28,14 @@ pub struct Output {
     pub near_switch: bool,
     /// Whether the static stiffness of boundaries is an output.
     pub stiffness: bool,
-    /// Whether single collisions are followed, from touch to parting, and how they are told.
+    /// Whether single impacts are followed, from touch to parting, and how they are told.
     pub impacts: Option<Impacts>,
     /// Time between checkpoints \[s\].
     #[serde(deserialize_with = "positive")]
     pub checkpoint_interval: Option<f64>,
 }
 
-/// `[output] impacts`: single collisions.
+/// `[output] impacts`: single impacts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Impacts {

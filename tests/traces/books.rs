@@ -1,4 +1,4 @@
-//! Collisions account for all that is lost; traces are part of the state.
+//! Impacts account for all that is lost; traces are part of the state.
 
 use super::{GRAINS, assert_close, closed, lost, sum, traces};
 use crate::support::{scene_with, start};
@@ -27,10 +27,10 @@ fn cloud() -> String {
     )
 }
 
-/// What open collisions have lost so far, as their contacts remember it \[J\].
+/// What open impacts have lost so far, as their contacts remember it \[J\].
 fn open(simulation: &Simulation) -> f64 {
     let (state, scene) = (simulation.state(), simulation.scene());
-    let place = scene.law(0).history_places().impact.expect("collisions are remembered");
+    let place = scene.law(0).history_places().impact.expect("impacts are remembered");
     let lists = state.contacts.iter().map(|list| (&list.history, list.flags.len()));
     let walls = state.walls.iter().map(|list| (&list.history, list.flags.len()));
     let of = |(history, count): (&cograin::state::History, usize)| -> f64 {
@@ -40,7 +40,7 @@ fn open(simulation: &Simulation) -> f64 {
 }
 
 #[test]
-fn closed_and_open_collisions_lost_what_the_book_tells() {
+fn closed_and_open_impacts_lost_what_the_book_tells() {
     let mut simulation = start(&cloud());
     for _ in 0..4 {
         simulation.advance(5e-3).unwrap();
@@ -49,7 +49,7 @@ fn closed_and_open_collisions_lost_what_the_book_tells() {
         assert_close(closed + open, lost, 1e-11);
     }
     let ended = traces(&simulation).ended();
-    assert!(ended > 200, "{ended} collisions");
+    assert!(ended > 200, "{ended} impacts");
     for boundary in [0, 1] {
         let wear = sum(&simulation, boundary, |facets| &facets.wear);
         assert!(wear > 0.0, "boundary {boundary}: {wear:e} m³");
@@ -70,7 +70,7 @@ fn traces_have_the_same_bits_for_any_threads_and_lanes() {
 }
 
 #[test]
-fn a_state_saved_amid_collisions_goes_on_with_the_same_bits() {
+fn a_state_saved_amid_impacts_goes_on_with_the_same_bits() {
     let mut simulation = start(&cloud());
     simulation.advance(8e-3).unwrap();
     assert!(open(&simulation) != 0.0);
@@ -96,9 +96,10 @@ fn bodies_four_times_as_heavy_and_stiff_lose_four_times_as_much_to_the_last_bit(
         simulation.advance(8e-3).unwrap();
         simulation
     });
-    let energies = |it: &Simulation| -> Vec<f64> { traces(it).boundaries.iter().flat_map(|it| it.normal.clone()).collect() };
+    let energies =
+        |it: &Simulation| -> Vec<f64> { traces(it).boundaries.iter().flat_map(|it| it.normal.clone()).collect() };
     assert_eq!(energies(&four), energies(&one).iter().map(|energy| 4.0 * energy).collect::<Vec<_>>());
-    let lost = |it: &Simulation| -> Vec<[f64; 2]> { traces(it).impacts.iter().map(|it| it.collision.lost).collect() };
+    let lost = |it: &Simulation| -> Vec<[f64; 2]> { traces(it).impacts.iter().map(|it| it.record.lost).collect() };
     assert_eq!(lost(&four), lost(&one).iter().map(|lost| lost.map(|it| 4.0 * it)).collect::<Vec<_>>());
     // 0.25e-12 is not a quarter of 1e-12 to the last bit of the decimal text: it is one to rounding.
     assert_close(sum(&four, 0, |facets| &facets.wear), sum(&one, 0, |facets| &facets.wear), 1e-15);
@@ -121,11 +122,11 @@ fn a_scene_that_asks_for_nothing_remembers_nothing() {
 }
 
 #[test]
-fn a_collision_ends_where_its_particle_goes() {
+fn an_impact_ends_where_its_particle_goes() {
     let text = format!(
         "{GRAINS}[output]\nimpacts = {{ events = true }}\n[particles.all]\nmaterial = \"stone\"\nlist = [\n\
          {{ position = [0, 0, 0.99e-3], radius = 1e-3, velocity = [3.0, 0.0, 0.0] }},\n]\n{}\
-         [region.end]\nbox = [[0.5e-3, -5e-3, -5e-3], [9e-3, 5e-3, 5e-3]]\n[outlet.end]\nregion = \"end\"\n",
+         [region.gap]\nbox = [[0.5e-3, -5e-3, -5e-3], [9e-3, 5e-3, 5e-3]]\n[outlet.end]\nregion = \"gap\"\n",
         super::FLOOR
     );
     let text = text.replace("[run]", "gravity = [0.0, 0.0, -5000.0]\n[run]");

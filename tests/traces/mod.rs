@@ -1,7 +1,7 @@
-//! What contacts leave behind: wear and losses on boundaries, and collisions from touch to parting.
+//! What contacts leave behind: wear and losses on boundaries, and impacts from touch to parting.
 
 mod books;
-mod collisions;
+mod impacts;
 mod refused;
 mod wear;
 
@@ -64,7 +64,7 @@ pub(crate) fn lost(simulation: &Simulation) -> f64 {
     causes.iter().map(|cause| book.taken[*cause as usize]).sum()
 }
 
-/// What collisions that ended have lost \[J\].
+/// What impacts that ended have lost \[J\].
 pub(crate) fn closed(simulation: &Simulation) -> f64 {
     traces(simulation).bins.iter().map(|bin| bin.lost[0] + bin.lost[1]).sum()
 }

@@ -40,7 +40,7 @@ fn how_a_face_is_divided_does_not_change_what_it_loses() {
         assert_eq!(facets.len(), 2 * cells * cells);
         let touched = facets.iter().filter(|wear| **wear > 0.0).count();
         // The sphere came from the corner of the sheet and crossed edges.
-        assert!(cells == 1 || touched > 2, "{touched} of {} facets", facets.len());
+        assert!(cells < 16 || touched > 5, "{touched} of {} facets", facets.len());
     }
 }
 
@@ -66,7 +66,7 @@ fn rolling_wears_nothing_and_a_turning_drum_does() {
     // A sphere at rest on the inner side of a drum that turns under it.
     let drum = |spin: f64, velocity: f64| {
         let text = format!(
-            "{GRAINS}[particles.all]\nmaterial = \"stone\"\nlist = [{{ position = [0.0, 0.0, -18.99e-3], radius = 1e-3 }}]\n\
+            "{GRAINS}[particles.all]\nmaterial = \"stone\"\nlist = [{{ position = [0.0, 0.0, -19.01e-3], radius = 1e-3 }}]\n\
              [boundary.hand]\nparticles = {{ set = \"all\" }}\nmotion = {{ prescribed = {{ \"rotation.y\" = {spin:?} }} }}\n\
              [boundary.floor]\ncylinder = {{ from = [0, -10e-3, 0], to = [0, 10e-3, 0], radius = 20e-3 }}\nmaterial = \"stone\"\n\
              motion = {{ prescribed = {{ \"rotation.y\" = {velocity:?} }} }}\n{ARCHARD}"
@@ -76,12 +76,13 @@ fn rolling_wears_nothing_and_a_turning_drum_does() {
     let turned = drum(0.0, 5.0);
     let force = turned.state().boundaries[0].force[2];
     // The drum presses the sphere towards its axis; the point of contact is half an overlap beyond its radius.
-    assert_close(worn(&turned, 1), 1e-12 * force.abs() * 5.0 * 19.995e-3 * 20e-3, 1e-6);
+    assert!(force > 0.0);
+    assert_close(worn(&turned, 1), 1e-12 * force * 5.0 * 20.005e-3 * 20e-3, 1e-6);
     // 64 facets of 0.098 rad: in 0.1 rad the foot has come to the second one.
     let touched = traces(&turned).boundaries[1].wear.iter().filter(|wear| **wear > 0.0).count();
     assert_eq!(touched, 2);
     // Sphere and drum turn so that their surfaces go alike.
-    let rolling = drum(5.0 * 19.995 / 0.995, 5.0);
+    let rolling = drum(5.0 * 20.005 / 0.995, 5.0);
     assert!(worn(&rolling, 1) < 1e-3 * worn(&turned, 1), "{:e}", worn(&rolling, 1));
 }
 

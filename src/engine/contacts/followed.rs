@@ -1,8 +1,8 @@
-//! Collisions of particles, followed from touch to parting.
+//! Impacts of particles, followed from touch to parting.
 
 use super::batches::{Entries, Followed};
 use crate::base::lanes::Shared;
-use crate::engine::state::{Collision, ContactList, Particles, State};
+use crate::engine::state::{ContactList, ImpactRecord, Particles, State};
 use crate::engine::traces::{Ended, Left, Share, TracedScene};
 use crate::laws::contact::Law;
 use crate::scene::Scene;
@@ -29,7 +29,7 @@ pub(super) struct Bodies<'a> {
 }
 
 impl FollowedPairs {
-    /// Of a scene; none where it follows no collisions.
+    /// Of a scene; none where it follows no impacts.
     pub(crate) fn of(scene: &Scene) -> Option<Self> {
         scene.output.impacts.map(|_| Self { scene: TracedScene::of(scene), room: Mutex::default() })
     }
@@ -43,32 +43,38 @@ impl FollowedPairs {
     }
 
     /// What the contacts of a slab leave behind that were evaluated in a time step of this length \[s\].
-    pub(super) fn follow(&self, (law, step): (&Law, f64), entries: &Entries, bodies: Bodies, room: &mut (Followed, Left)) {
+    pub(super) fn follow(
+        &self,
+        (law, step): (&Law, f64),
+        entries: &Entries,
+        bodies: Bodies,
+        room: &mut (Followed, Left),
+    ) {
         let (followed, left) = room;
         left.clear();
         let Some(place) = law.history_places().impact else { return };
         for trace in &followed.touching {
             // SAFETY: the entry belongs to this slab.
             let rows = unsafe { entries.history(trace.entry as usize) };
-            let mut collision = Collision::of_rows([rows[place], rows[place + 1]]);
-            collision.go_on(step, trace.force, trace.speed, trace.lost);
-            rows[place..place + 2].copy_from_slice(&collision.to_rows());
+            let mut record = ImpactRecord::of_rows([rows[place], rows[place + 1]]);
+            record.go_on(step, trace.force, trace.speed, trace.lost);
+            rows[place..place + 2].copy_from_slice(&record.to_rows());
             self.share(bodies, [trace.first, trace.second], trace.lost, left);
         }
         for parted in &followed.parted {
-            let mut collision = Collision::of_rows(parted.rows);
-            if collision.begun {
-                (0..2).for_each(|part| collision.lost[part] += parted.lost[part]);
-                left.ended.push(self.ended(bodies.material, [parted.first, parted.second], collision));
+            let mut record = ImpactRecord::of_rows(parted.rows);
+            if record.begun {
+                (0..2).for_each(|part| record.lost[part] += parted.lost[part]);
+                left.ended.push(self.ended(bodies.material, [parted.first, parted.second], record));
                 self.share(bodies, [parted.first, parted.second], parted.lost, left);
             }
         }
     }
 
-    /// A collision of two particles (slots) that ended.
-    fn ended(&self, material: &[u32], [first, second]: [u32; 2], collision: Collision) -> Ended {
+    /// An impact of two particles (slots) that ended.
+    fn ended(&self, material: &[u32], [first, second]: [u32; 2], record: ImpactRecord) -> Ended {
         let [one, other] = [first, second].map(|slot| material[slot as usize]);
-        Ended { first, second: Some(second), between: self.scene.between(one, other), collision }
+        Ended { first, second: Some(second), between: self.scene.between(one, other), record }
     }
 
     /// Gives what two particles (slots) lost to the groups to which they belong.
@@ -83,7 +89,7 @@ impl FollowedPairs {
         }
     }
 
-    /// Ends the collisions of particles (slots) that go.
+    /// Ends the impacts of particles (slots) that go.
     pub(super) fn let_go(&self, (law, index): (&Law, usize), state: &mut State, goes: &[bool]) {
         let Some(place) = law.history_places().impact else { return };
         let (mut left, Particles { material, .. }) = (Left::default(), &state.particles);
@@ -91,9 +97,9 @@ impl FollowedPairs {
         for (entry, slots) in first.iter().zip(second).map(|(&i, &j)| [i, j]).enumerate() {
             if slots.iter().any(|&slot| goes[slot as usize]) {
                 let rows = history.get(entry);
-                let collision = Collision::of_rows([rows[place], rows[place + 1]]);
-                if collision.begun {
-                    left.ended.push(self.ended(material, slots, collision));
+                let record = ImpactRecord::of_rows([rows[place], rows[place + 1]]);
+                if record.begun {
+                    left.ended.push(self.ended(material, slots, record));
                 }
             }
         }

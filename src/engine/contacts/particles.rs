@@ -45,7 +45,8 @@ impl Pass for ContactPass {
             None => self.evaluate(state, context, &deepest, None),
             Some(followed) => {
                 let slabs = state.contacts[self.index].slabs.len().saturating_sub(1);
-                followed.with(state, slabs, |state, room| self.evaluate(state, context, &deepest, Some((followed, room))));
+                followed
+                    .with(state, slabs, |state, room| self.evaluate(state, context, &deepest, Some((followed, room))));
             }
         }
         if let Some(found) = deepest.found() {

@@ -45,7 +45,7 @@ pub use nodes::Nodes;
 pub use number::InsertedParticle;
 pub use pace::Pace;
 pub use particles::{GONE, IMAGE, Particles};
-pub use traces::{Collision, FacetTraces, Impact, ImpactBin, Traces};
+pub use traces::{FacetTraces, Impact, ImpactBin, ImpactRecord, Traces};
 
 pub use crate::base::number::Row;
 

@@ -1,4 +1,4 @@
-//! What contacts leave behind: wear and losses on the facets of boundaries, and collisions that ended.
+//! What contacts leave behind: wear and losses on the facets of boundaries, and impacts that ended.
 
 use super::check::{all_finite, demand, demand_all};
 use super::in_place::clone_in_place;
@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 pub struct Traces {
     /// On the boundaries, in the scene's order.
     pub boundaries: Vec<FacetTraces>,
-    /// Collisions that ended, by who collided and by the energy that was lost, ascending.
+    /// Impacts that ended, by who met and by the energy that was lost, ascending.
     pub bins: Vec<ImpactBin>,
-    /// Collisions that ended since the present communication step began, where the scene asks for each.
+    /// Impacts that ended since the present communication step began, where the scene asks for each.
     pub impacts: Vec<Impact>,
 }
 
@@ -34,10 +34,10 @@ pub struct FacetTraces {
 
 clone_in_place!(FacetTraces { wear, normal, tangential });
 
-/// Collisions of the same bodies that lost about as much.
+/// Impacts of the same bodies that lost about as much.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ImpactBin {
-    /// Who collided: a boundary, or behind the boundaries two materials, row by row.
+    /// Who met: a boundary, or behind the boundaries two materials, row by row.
     pub between: u32,
     /// The bin of the energy; [`ImpactBin::NOTHING`] where none was lost.
     pub bin: i32,
@@ -50,11 +50,11 @@ pub struct ImpactBin {
 }
 
 impl ImpactBin {
-    /// The bin of collisions that lost nothing, or gained.
+    /// The bin of impacts that lost nothing, or gained.
     pub const NOTHING: i32 = i32::MIN;
 }
 
-/// One collision, from touch to parting.
+/// One impact, from touch to parting.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Impact {
     /// When the bodies had parted \[s\].
@@ -63,15 +63,15 @@ pub struct Impact {
     pub particle: Named,
     /// The other one; none at a surface.
     pub partner: Option<Named>,
-    /// Who collided, as in [`ImpactBin::between`].
+    /// Who met, as in [`ImpactBin::between`].
     pub between: u32,
     /// What happened.
-    pub collision: Collision,
+    pub record: ImpactRecord,
 }
 
-/// What happened in a collision so far, as its contact remembers it.
+/// What happened in an impact so far, as its contact remembers it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Collision {
+pub struct ImpactRecord {
     /// What was lost along the normal and across it \[J\].
     pub lost: [f64; 2],
     /// Largest normal force \[N\].
@@ -84,7 +84,7 @@ pub struct Collision {
     pub begun: bool,
 }
 
-impl Collision {
+impl ImpactRecord {
     /// The same in rows of the history of a contact.
     pub(crate) fn to_rows(self) -> [[f64; 4]; 2] {
         let Self { lost: [along, across], largest_force, duration, speed: [normal, tangential], begun } = self;
@@ -102,11 +102,12 @@ impl Collision {
 impl Traces {
     /// Nothing yet, on boundaries of so many facets.
     pub(crate) fn of(facets: impl Iterator<Item = usize>) -> Self {
-        let none = |count| FacetTraces { wear: vec![0.0; count], normal: vec![0.0; count], tangential: vec![0.0; count] };
+        let none =
+            |count| FacetTraces { wear: vec![0.0; count], normal: vec![0.0; count], tangential: vec![0.0; count] };
         Self { boundaries: facets.map(none).collect(), ..Self::default() }
     }
 
-    /// Counts a collision that ended, in this bin of the energy.
+    /// Counts an impact that ended, in this bin of the energy.
     pub(crate) fn count(&mut self, impact: &Impact, bin: i32) {
         let key = (impact.between, bin);
         let place = match self.bins.binary_search_by_key(&key, |it| (it.between, it.bin)) {
@@ -117,13 +118,13 @@ impl Traces {
                 place
             }
         };
-        let (found, collision) = (&mut self.bins[place], &impact.collision);
+        let (found, record) = (&mut self.bins[place], &impact.record);
         found.count += 1;
-        (0..2).for_each(|part| found.lost[part] += collision.lost[part]);
-        found.largest_force = found.largest_force.max(collision.largest_force);
+        (0..2).for_each(|part| found.lost[part] += record.lost[part]);
+        found.largest_force = found.largest_force.max(record.largest_force);
     }
 
-    /// How many collisions have ended.
+    /// How many impacts have ended.
     pub fn ended(&self) -> u64 {
         self.bins.iter().map(|bin| bin.count).sum()
     }

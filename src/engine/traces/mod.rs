@@ -1,10 +1,10 @@
-//! What contacts leave behind: wear and losses on the facets of boundaries, and collisions from touch to parting.
+//! What contacts leave behind: wear and losses on the facets of boundaries, and impacts from touch to parting.
 //!
 //! Passes follow single contacts (`engine/contacts/followed.rs`, `surfaces/traces.rs`) and hand over here what they found, piece by piece in
-//! the order of their lists: sums have the same bits for any number of threads. What an open collision has lost stands in the history of its
+//! the order of their lists: sums have the same bits for any number of threads. What an open impact has lost stands in the history of its
 //! contact, so it goes with the contact wherever that goes.
 
-use crate::engine::state::{Collision, Impact, ImpactBin, Named, State, Traces};
+use crate::engine::state::{Impact, ImpactBin, ImpactRecord, Named, State, Traces};
 use crate::scene::{Boundary, Scene};
 
 /// Traces at time 0; none where the scene asks for none.
@@ -33,17 +33,17 @@ pub(crate) struct Share {
     pub(crate) lost: [f64; 2],
 }
 
-/// A collision that ended.
+/// An impact that ended.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ended {
     /// The particle (slot).
     pub(crate) first: u32,
     /// The other one (slot); none at a surface.
     pub(crate) second: Option<u32>,
-    /// Who collided: see [`ImpactBin::between`].
+    /// Who met: see [`ImpactBin::between`].
     pub(crate) between: u32,
     /// What happened.
-    pub(crate) collision: Collision,
+    pub(crate) record: ImpactRecord,
 }
 
 /// What a piece of a list leaves behind.
@@ -51,7 +51,7 @@ pub(crate) struct Ended {
 pub(crate) struct Left {
     /// On facets.
     pub(crate) shares: Vec<Share>,
-    /// Collisions that ended.
+    /// Impacts that ended.
     pub(crate) ended: Vec<Ended>,
 }
 
@@ -75,9 +75,9 @@ impl Left {
         for ended in &self.ended {
             let name = |slot: u32| Named::at(particles, slot);
             let (particle, partner) = (name(ended.first), ended.second.map(name));
-            let (between, collision) = (ended.between, ended.collision);
-            let impact = Impact { time: clock.time, particle, partner, between, collision };
-            let energy = collision.lost[0] + collision.lost[1];
+            let (between, record) = (ended.between, ended.record);
+            let impact = Impact { time: clock.time, particle, partner, between, record };
+            let energy = record.lost[0] + record.lost[1];
             traces.count(&impact, if energy > 0.0 { output.histogram.of(energy) } else { ImpactBin::NOTHING });
             if output.events {
                 traces.impacts.push(impact);
@@ -86,7 +86,7 @@ impl Left {
     }
 }
 
-/// What of a scene says who collides and what is told of it.
+/// What of a scene says who meets and what is told of it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TracedScene {
     /// How many boundaries there are.
@@ -95,7 +95,7 @@ pub(crate) struct TracedScene {
     materials: u32,
     /// Whether groups of particles are among the boundaries.
     pub(crate) groups: bool,
-    /// How collisions are told, if they are.
+    /// How impacts are told, if they are.
     pub(crate) impacts: Option<crate::scene::Impacts>,
 }
 
@@ -110,13 +110,13 @@ impl TracedScene {
         }
     }
 
-    /// The number of particles of two materials that collide.
+    /// The number of particles of two materials that meet.
     pub(crate) fn between(&self, one: u32, other: u32) -> u32 {
         self.boundaries + one.min(other) * self.materials + one.max(other)
     }
 }
 
-/// Who collided, as the scene's own tables name them: `boundary.floor`, `pair.glass.steel`.
+/// Who met, as the scene's own tables name them: `boundary.floor`, `pair.glass.steel`.
 pub(crate) fn name(scene: &Scene, between: u32) -> String {
     let (boundaries, materials) = (scene.boundaries.len(), scene.materials.len());
     if let Some(boundary) = scene.boundaries.get(between as usize) {
@@ -127,7 +127,7 @@ pub(crate) fn name(scene: &Scene, between: u32) -> String {
     format!("pair.{}.{}", name(pair / materials.max(1)), name(pair % materials.max(1)))
 }
 
-impl Collision {
+impl ImpactRecord {
     /// Goes on for a time step of this length \[s\]. Before the first one (0) what touches has begun already. Returns whether the bodies
     /// touch first in it.
     pub(crate) fn go_on(&mut self, step: f64, force: f64, speed: [f64; 2], lost: [f64; 2]) -> bool {

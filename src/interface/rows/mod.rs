@@ -81,7 +81,8 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
     let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN).chain(&OF_PROBES);
-    let of_parts = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_TRACES).chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
+    let of_parts =
+        OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_TRACES).chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
     of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 

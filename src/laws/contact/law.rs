@@ -40,7 +40,7 @@ const LOADS: HistoryRow = HistoryRow { name: "dashpots before", odd: [false, tru
 const OTHER_LOADS: HistoryRow =
     HistoryRow { name: "other loads before", odd: [false, true, true, true], fourth_is_free: false };
 
-/// What is remembered of a collision: loss along the normal and across it \[J\], largest normal force \[N\], duration so far \[s\].
+/// What is remembered of an impact: loss along the normal and across it \[J\], largest normal force \[N\], duration so far \[s\].
 const IMPACT: HistoryRow = HistoryRow { name: "impact", odd: [false; 4], fourth_is_free: false };
 
 /// How it began: speeds along the normal and across it \[m/s\], and whether it has begun.

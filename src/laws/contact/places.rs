@@ -21,7 +21,7 @@ pub struct HistoryPlaces {
     pub loads: Option<usize>,
     /// Of a book of losses: what else acted.
     pub other_loads: Option<usize>,
-    /// Of single collisions: what each lost so far, and, in the row behind it, how it began.
+    /// Of single impacts: what each lost so far, and, in the row behind it, how it began.
     pub impact: Option<usize>,
 }
 

@@ -227,7 +227,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     if let Some(impacts) = scene.output.impacts {
         let each = if impacts.events { ", and each by itself" } else { "" };
         let bins = impacts.histogram.bins_per_decade;
-        uses.push(format!("collisions from touch to parting, counted by energy, {bins} bins a decade{each}"));
+        uses.push(format!("impacts from touch to parting, counted by energy, {bins} bins a decade{each}"));
     }
     uses
 }

@@ -46,7 +46,7 @@ pub(crate) struct Folder {
     history: Table,
     /// `breakage.csv`, if the scene has bonds.
     breakage: Option<Table>,
-    /// `impacts.csv`, if the scene asks for each collision.
+    /// `impacts.csv`, if the scene asks for each impact.
     impacts: Option<Table>,
     /// The frames, if the scene asks for them.
     frames: Option<FrameFiles>,
@@ -63,7 +63,7 @@ pub(crate) struct KeptFiles {
     history: Option<Found>,
     /// The rows of the breakage, or none where a new file is begun or there are no bonds.
     breakage: Option<Found>,
-    /// The rows of the collisions, or none where a new file is begun or nobody asks for them.
+    /// The rows of the impacts, or none where a new file is begun or nobody asks for them.
     impacts: Option<Found>,
     /// The frames that are there.
     frames: Vec<Frame>,
@@ -82,7 +82,7 @@ pub(crate) struct Place<'a> {
     pub time: f64,
     /// The state there.
     pub state: &'a State,
-    /// Whether the scene asks for each collision.
+    /// Whether the scene asks for each impact.
     pub asks_for_impacts: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Collisions in files: one by one, and counted by the energy that they lost.
+//! Impacts in files: one by one, and counted by the energy that they lost.
 
 use super::error::OutputError;
 use super::files::{Durability, write_whole};
@@ -8,7 +8,7 @@ use crate::engine::traces::name;
 use crate::scene::Scene;
 use std::path::Path;
 
-/// Columns of the file of collisions.
+/// Columns of the file of impacts.
 pub(super) const COLUMNS: [&str; 10] = [
     "time",
     "id1",
@@ -26,17 +26,17 @@ pub(super) const COLUMNS: [&str; 10] = [
 pub(super) const HISTOGRAM_HEAD: &str =
     "between,energy_from,energy_to,count,normal_loss,tangential_loss,largest_force\n";
 
-/// Adds a row for each collision.
+/// Adds a row for each impact.
 pub(super) fn add(table: &mut Table, scene: &Scene, impacts: &[Impact]) -> Result<(), OutputError> {
     let number = |named: Named| {
         let own = scene.particles.get(named.index as usize).map(|particle| particle.id.0);
         named.number.or(own).unwrap_or(named.index).to_string()
     };
     let boundary = |between: u32| scene.boundaries.get(between as usize).map_or("", |boundary| &boundary.name);
-    for Impact { time, particle, partner, between, collision } in impacts {
-        let [normal, tangential] = collision.lost;
-        let [closing, sliding] = collision.speed;
-        let numbers = [normal, tangential, collision.largest_force, closing, sliding, collision.duration];
+    for Impact { time, particle, partner, between, record } in impacts {
+        let [normal, tangential] = record.lost;
+        let [closing, sliding] = record.speed;
+        let numbers = [normal, tangential, record.largest_force, closing, sliding, record.duration];
         let other = partner.map_or_else(|| boundary(*between).to_owned(), number);
         let mut row = vec![format!("{time:?}"), number(*particle), other, name(scene, *between)];
         row.extend(numbers.map(|number| format!("{number:?}")));

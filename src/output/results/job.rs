@@ -1,9 +1,7 @@
 //! What is handed to the thread that writes.
 
 use crate::engine::simulation::{BondRecord, ContactRecord};
-use crate::engine::state::{
-    BoundaryState, Break, CellState, Clumps, FacetTraces, Impact, Nodes, Particles, State,
-};
+use crate::engine::state::{BoundaryState, Break, CellState, Clumps, FacetTraces, Impact, Nodes, Particles, State};
 use crate::interface::Value;
 use std::sync::mpsc::SyncSender;
 
@@ -18,7 +16,7 @@ pub(crate) enum Job {
     },
     /// Bonds that broke.
     Breaks(Vec<Break>),
-    /// Collisions that ended.
+    /// Impacts that ended.
     Impacts(Vec<Impact>),
     /// A frame.
     Frame {

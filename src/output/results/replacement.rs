@@ -146,7 +146,9 @@ fn kind_of(path: &Path) -> Result<Kind, OutputError> {
     let own = about.is_file()
         && match name {
             _ if name.ends_with(&format!(".{UNFINISHED}")) => true,
-            HISTORY | BREAKAGE | IMPACTS => begins(&|bytes| bytes.starts_with(b"time,") || bytes.starts_with(b"time\n"))?,
+            HISTORY | BREAKAGE | IMPACTS => {
+                begins(&|bytes| bytes.starts_with(b"time,") || bytes.starts_with(b"time\n"))?
+            }
             HISTOGRAMS => begins(&|bytes| bytes.starts_with(impacts::HISTOGRAM_HEAD.as_bytes()))?,
             SUMMARY => begins(&|bytes| bytes.starts_with(SUMMARY_MARK))?,
             CHECKPOINT => begins(&is_checkpoint)?,
@@ -170,7 +172,9 @@ fn is_listed(path: &Path, name: &str) -> bool {
 /// Whether a file has a name that runs give.
 fn is_result(name: &str) -> bool {
     let name = name.strip_suffix(&format!(".{UNFINISHED}")).unwrap_or(name);
-    [HISTORY, BREAKAGE, IMPACTS, HISTOGRAMS, SUMMARY, CHECKPOINT].contains(&name) || frame_number(name).is_some() || is_collection(name)
+    [HISTORY, BREAKAGE, IMPACTS, HISTOGRAMS, SUMMARY, CHECKPOINT].contains(&name)
+        || frame_number(name).is_some()
+        || is_collection(name)
 }
 
 /// Gives a hidden folder another name, for good.

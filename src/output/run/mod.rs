@@ -18,17 +18,17 @@ pub use settle::{SettleOrder, SettleProgress, SettleStart, Settled, settle};
 pub use summary::Summary;
 
 use crate::engine::simulation::{RunError, Simulation};
-use crate::interface::{Interface, Variable};
 use crate::engine::state::{Impact, State};
-use crate::output::results::impacts::write_histograms;
-use crate::output::results::{HISTOGRAMS, SUMMARY};
+use crate::interface::{Interface, Variable};
 use crate::output::results::files::{Checkpoint, Durability, write_whole};
 use crate::output::results::folder::{Folder, KeptFiles, Place};
+use crate::output::results::impacts::write_histograms;
 use crate::output::results::job::Job;
 use crate::output::results::lock::FolderLock;
 use crate::output::results::schedule::{Due, Schedule};
 use crate::output::results::writer::{Writer, opened};
 use crate::output::results::{Failure, OutputError, Refusal, ResumeError};
+use crate::output::results::{HISTOGRAMS, SUMMARY};
 use beginning::{First, Origin, checkpoint, claim};
 use inputs::Inputs;
 use jobs::{frame, row};
@@ -57,12 +57,12 @@ pub fn run(order: RunOrder<'_>, watch: &mut dyn FnMut(Progress)) -> Result<Summa
     session.end(result)
 }
 
-/// How many bonds broke, and how many collisions ended, since the present communication step began.
+/// How many bonds broke, and how many impacts ended, since the present communication step began.
 fn happened(state: &State) -> [usize; 2] {
     [state.breaks.len(), impacts(state).len()]
 }
 
-/// Collisions that ended since the present communication step began, where each is told.
+/// Impacts that ended since the present communication step began, where each is told.
 fn impacts(state: &State) -> &[Impact] {
     state.traces.as_ref().map_or(&[], |traces| &traces.impacts)
 }
@@ -87,7 +87,7 @@ struct Session<'a> {
     writer: Writer,
     /// Communication point that was reached last \[s\].
     time: f64,
-    /// Bonds that broke, and collisions that ended, since then and are told.
+    /// Bonds that broke, and impacts that ended, since then and are told.
     told: [usize; 2],
     /// Communication point where this session began \[s\].
     start: f64,
@@ -233,7 +233,7 @@ impl<'a> Session<'a> {
         unnamed && self.last_checkpoint.elapsed() >= CHECKPOINT_PAUSE
     }
 
-    /// Hands the bonds that broke and the collisions that ended in this communication step, and are not told yet, to the writer.
+    /// Hands the bonds that broke and the impacts that ended in this communication step, and are not told yet, to the writer.
     fn write_events(&mut self) -> Result<(), OutputError> {
         let (state, told) = (self.simulation.state(), self.told);
         self.told = happened(state);

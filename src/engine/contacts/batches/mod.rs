@@ -165,7 +165,13 @@ impl<B: Bodies> Batches<'_, B> {
     }
 
     /// The same, and what single contacts did.
-    pub(crate) fn run_followed(&self, from: usize, to: usize, ahead: Range<usize>, found: &mut Followed) -> (B::Sum, Lost) {
+    pub(crate) fn run_followed(
+        &self,
+        from: usize,
+        to: usize,
+        ahead: Range<usize>,
+        found: &mut Followed,
+    ) -> (B::Sum, Lost) {
         Buffer::with(|buffer| {
             buffer.losses.begin();
             let sum = self.run_in(buffer, from..to, ahead);

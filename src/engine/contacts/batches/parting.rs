@@ -33,7 +33,9 @@ impl<B: Bodies> Parting<'_, '_, B> {
                 let bodies = &self.work.bodies;
                 bodies.warm(bodies.first()[entry], bodies.second()[entry], 0.5 * booked.heat(&lost), self.sum);
             }
-            if self.work.follows && let Some(place) = self.work.law.law.history_places().impact {
+            if self.work.follows
+                && let Some(place) = self.work.law.law.history_places().impact
+            {
                 let bodies = &self.work.bodies;
                 let [along, across] = booked.by_direction(&lost).map(|energy| 0.5 * energy);
                 // SAFETY: the caller's promise.

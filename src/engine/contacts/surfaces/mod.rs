@@ -32,9 +32,9 @@ use crate::scene::{Boundary, Outside, Scene, Shape};
 use features::{ColumnBuffer, FeatureContacts};
 use plane::{AtPlane, Plane, PlaneList};
 use sphere::{Load, ParticleLoads};
-use traces::{SurfaceFollower, TraceRoom};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError, RwLock};
+use traces::{SurfaceFollower, TraceRoom};
 
 /// Particles in one piece of work.
 const PIECE: usize = 2 * CHUNK;
@@ -373,7 +373,7 @@ impl Pass for SurfacePass {
     }
 
     fn let_go(&self, state: &mut State, goes: &[bool], _step: f64) -> f64 {
-        self.surfaces.iter().for_each(|surface| surface.end_collisions(state, goes));
+        self.surfaces.iter().for_each(|surface| surface.end_impacts(state, goes));
         0.0
     }
 

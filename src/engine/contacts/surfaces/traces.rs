@@ -1,6 +1,6 @@
-//! What contacts leave on a surface: wear, losses, and collisions that ended.
+//! What contacts leave on a surface: wear, losses, and impacts that ended.
 //!
-//! A particle may touch several features of a surface at once, and roll from one to the next: that is one collision, which ends when it
+//! A particle may touch several features of a surface at once, and roll from one to the next: that is one impact, which ends when it
 //! touches none any more. What is remembered of it stands with the first of its contacts that counts.
 
 use super::features::MovingSurface;
@@ -9,7 +9,7 @@ use super::sphere::ParticleLoads;
 use super::{AtSurface, Load, Touched};
 use crate::base::number::Vector;
 use crate::engine::contacts::batches::{Batches, Bodies, Entries, Followed, Trace};
-use crate::engine::state::{Collision, Row, State};
+use crate::engine::state::{ImpactRecord, Row, State};
 use crate::engine::traces::{Ended, Left, Share, TracedScene};
 use crate::laws::wear::{Rubbing, Touch, WearModel};
 use crate::scene::{Boundary, Scene};
@@ -56,15 +56,15 @@ impl TouchedFeatures<'_> {
     }
 }
 
-/// Collisions as the rows of a list remember them, of which this is the first.
-fn remembered(rows: &[Row], place: Option<usize>) -> Collision {
-    place.map_or_else(Collision::default, |place| Collision::of_rows([rows[place], rows[place + 1]]))
+/// Impacts as the rows of a list remember them, of which this is the first.
+fn remembered(rows: &[Row], place: Option<usize>) -> ImpactRecord {
+    place.map_or_else(ImpactRecord::default, |place| ImpactRecord::of_rows([rows[place], rows[place + 1]]))
 }
 
-/// Lets rows remember a collision.
-fn remember(rows: &mut [Row], place: Option<usize>, collision: Collision) {
+/// Lets rows remember an impact.
+fn remember(rows: &mut [Row], place: Option<usize>, record: ImpactRecord) {
     if let Some(place) = place {
-        rows[place..place + 2].copy_from_slice(&collision.to_rows());
+        rows[place..place + 2].copy_from_slice(&record.to_rows());
     }
 }
 
@@ -90,9 +90,9 @@ impl SurfaceFollower {
         self.wear.iter().map(|model| model.volume(&rubbing)).sum()
     }
 
-    /// A collision with a particle (slot) that ended.
-    fn ended(&self, first: u32, collision: Collision) -> Ended {
-        Ended { first, second: None, between: self.boundary, collision }
+    /// An impact with a particle (slot) that ended.
+    fn ended(&self, first: u32, record: ImpactRecord) -> Ended {
+        Ended { first, second: None, between: self.boundary, record }
     }
 }
 
@@ -105,17 +105,17 @@ impl AtSurface {
         for trace in &followed.touching {
             // SAFETY: the entry belongs to this piece of the list.
             let rows = unsafe { batches.entries.history(trace.entry as usize) };
-            let mut collision = remembered(rows, place);
-            let touches_first = collision.go_on(batches.step, trace.force, trace.speed, trace.lost);
-            remember(rows, place, collision);
+            let mut record = remembered(rows, place);
+            let touches_first = record.go_on(batches.step, trace.force, trace.speed, trace.lost);
+            remember(rows, place, record);
             let wear = follower.worn(trace, touches_first, batches.step);
             left.shares.push(Share { boundary, facet: 0, wear, lost: trace.lost });
         }
         for parted in &followed.parted {
-            let mut collision = Collision::of_rows(parted.rows);
-            if collision.begun {
-                (0..2).for_each(|part| collision.lost[part] += parted.lost[part]);
-                left.ended.push(follower.ended(parted.first, collision));
+            let mut record = ImpactRecord::of_rows(parted.rows);
+            if record.begun {
+                (0..2).for_each(|part| record.lost[part] += parted.lost[part]);
+                left.ended.push(follower.ended(parted.first, record));
                 left.shares.push(Share { boundary, facet: 0, wear: 0.0, lost: parted.lost });
             }
         }
@@ -145,13 +145,13 @@ impl AtSurface {
             let of_particle = traces.iter().take_while(|trace| (trace.entry as usize) < end).count();
             let (mine, rest) = traces.split_at(of_particle);
             traces = rest;
-            let mut collision = remembered_of(past, entries_before, place);
-            let is_new = self.go_on(&mut collision, mine, step);
+            let mut record = remembered_of(past, entries_before, place);
+            let is_new = self.go_on(&mut record, mine, step);
             // SAFETY: the entries are those of this piece, and nobody else looks at them.
             let rows = |contact: usize| unsafe { entries.history(contact) };
-            (first..end).for_each(|contact| remember(rows(contact), place, Collision::default()));
+            (first..end).for_each(|contact| remember(rows(contact), place, ImpactRecord::default()));
             if let Some(keeper) = (first..end).find(|&contact| touched.weight(contact) > 0.0) {
-                remember(rows(keeper), place, collision);
+                remember(rows(keeper), place, record);
             }
             let deepest = is_new.then(|| strongest(mine)).flatten();
             for trace in mine {
@@ -163,14 +163,14 @@ impl AtSurface {
         self.end_features(past, before..past.particle.len(), left);
     }
 
-    /// Lets a collision go on with what the contacts of its particle do. Returns whether it begins.
-    fn go_on(&self, collision: &mut Collision, contacts: &[Trace], step: f64) -> bool {
+    /// Lets an impact go on with what the contacts of its particle do. Returns whether it begins.
+    fn go_on(&self, record: &mut ImpactRecord, contacts: &[Trace], step: f64) -> bool {
         let Some(strongest) = strongest(contacts).and_then(|entry| contacts.iter().find(|it| it.entry == entry)) else {
             return false;
         };
         let force = contacts.iter().map(|trace| trace.force).sum();
         let lost = [0, 1].map(|part: usize| contacts.iter().map(|trace| trace.lost[part]).sum());
-        collision.go_on(step, force, strongest.speed, lost)
+        record.go_on(step, force, strongest.speed, lost)
     }
 
     /// Gives what a contact left to the facets where it is.
@@ -191,41 +191,41 @@ impl AtSurface {
         }
     }
 
-    /// Ends collisions of particles that touch no feature any more, at these entries of before.
+    /// Ends impacts of particles that touch no feature any more, at these entries of before.
     fn end_features(&self, past: &PreviousContacts, entries: std::ops::Range<usize>, left: &mut Left) {
         let (Some(follower), Some(_)) = (&self.follower, follows(self)) else { return };
         for entry in entries {
-            let collision = remembered_of(past, entry..entry + 1, self.law.law.history_places().impact);
-            if collision.begun {
-                left.ended.push(follower.ended(past.particle[entry], collision));
+            let record = remembered_of(past, entry..entry + 1, self.law.law.history_places().impact);
+            if record.begun {
+                left.ended.push(follower.ended(past.particle[entry], record));
             }
         }
     }
 
-    /// Ends the collisions of particles (slots) that go.
-    pub(super) fn end_collisions(&self, state: &mut State, goes: &[bool]) {
+    /// Ends the impacts of particles (slots) that go.
+    pub(super) fn end_impacts(&self, state: &mut State, goes: &[bool]) {
         let (Some(follower), Some(place)) = (&self.follower, follows(self)) else { return };
         let (mut left, list) = (Left::default(), self.list(state));
         for (entry, &slot) in list.particle.iter().enumerate().filter(|(_, slot)| goes[**slot as usize]) {
-            let collision = remembered(list.history.get(entry), Some(place));
-            if collision.begun {
-                left.ended.push(follower.ended(slot, collision));
+            let record = remembered(list.history.get(entry), Some(place));
+            if record.begun {
+                left.ended.push(follower.ended(slot, record));
             }
         }
         left.book(&follower.scene, state);
     }
 }
 
-/// Where the contacts of a surface remember collisions, if they do.
+/// Where the contacts of a surface remember impacts, if they do.
 fn follows(surface: &AtSurface) -> Option<usize> {
     surface.law.law.history_places().impact
 }
 
-/// The collision that some entries of before remember: one of them does.
-fn remembered_of(past: &PreviousContacts, entries: std::ops::Range<usize>, place: Option<usize>) -> Collision {
-    let Some(place) = place else { return Collision::default() };
-    let of = |entry: usize| Collision::of_rows([past.row(entry, place), past.row(entry, place + 1)]);
-    entries.map(of).find(|collision| collision.begun).unwrap_or_default()
+/// The impact that some entries of before remember: one of them does.
+fn remembered_of(past: &PreviousContacts, entries: std::ops::Range<usize>, place: Option<usize>) -> ImpactRecord {
+    let Some(place) = place else { return ImpactRecord::default() };
+    let of = |entry: usize| ImpactRecord::of_rows([past.row(entry, place), past.row(entry, place + 1)]);
+    entries.map(of).find(|record| record.begun).unwrap_or_default()
 }
 
 /// The entry of the contact that presses most.

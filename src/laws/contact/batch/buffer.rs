@@ -74,7 +74,7 @@ mod column {
     pub(crate) const SPRING: [usize; 3] = [38, 39, 40];
     /// Of a book of losses: velocity along the normal at mid-step.
     pub(crate) const VELOCITY: usize = 41;
-    /// Of collisions: what is lost along the normal and across it.
+    /// Of impacts: what is lost along the normal and across it.
     pub(crate) const LOST: [usize; 2] = [42, 43];
     /// How many there are.
     pub(crate) const COUNT: usize = 44;

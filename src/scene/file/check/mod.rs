@@ -144,7 +144,7 @@ impl SceneDraft {
 /// Reports what the parts of a scene are not to each other.
 fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let repeated = cell::repeat_surfaces(draft);
-    // Losses that warm, and those of single collisions, are found by the book of losses.
+    // Losses that warm, and those of single impacts, are found by the book of losses.
     draft.output.losses |= draft.heat.warms() || draft.output.impacts.is_some();
     let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
