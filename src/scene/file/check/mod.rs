@@ -153,8 +153,8 @@ impl SceneDraft {
 fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let repeated = cell::repeat_surfaces(draft);
     grid::repeat(&mut draft.grids, draft.cell.as_ref());
-    // Losses that warm are found by the book of losses.
-    draft.output.losses |= draft.heat.warms();
+    // Losses that warm, and those of single impacts, are found by the book of losses.
+    draft.output.losses |= draft.heat.warms() || draft.output.impacts.is_some();
     let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
