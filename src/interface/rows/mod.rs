@@ -18,7 +18,7 @@ use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
-use heat::{OF_HEAT, OF_HEATED};
+use heat::{OF_HEAT, OF_HEATED, OF_HEATED_NODES};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
 use row::Each;
@@ -54,6 +54,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
         let of_nodes = OF_NODES
             .iter()
+            .chain(&OF_HEATED_NODES)
             .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_node(node))));
         OF_BOUNDARIES.iter().chain(&OF_HEATED).map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
     });
@@ -78,19 +79,26 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
     let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN).chain(&OF_PROBES);
-    let of_parts = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_NODES).chain(&OF_REGIONS).chain(exchange);
+    let of_parts = OF_BOUNDARIES
+        .iter()
+        .chain(&OF_HEATED)
+        .chain(&OF_NODES)
+        .chain(&OF_HEATED_NODES)
+        .chain(&OF_REGIONS)
+        .chain(exchange);
     of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 
 impl Source {
     /// The node that it is of, from 0.
     pub(super) fn node(&self) -> Option<usize> {
-        (self.row.each == Each::Node).then_some(self.at.node())
+        matches!(self.row.each, Each::Node | Each::NodeScalar).then_some(self.at.node())
     }
 
     /// The boundary that it is of, from 0.
     pub(super) fn boundary(&self) -> Option<usize> {
-        matches!(self.row.each, Each::Boundary | Each::Axis | Each::Node).then(|| self.at.boundary.index())
+        matches!(self.row.each, Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar)
+            .then(|| self.at.boundary.index())
     }
 
     /// Whether it is of a boundary and not of one of its nodes.
@@ -103,7 +111,7 @@ impl Source {
         let Self { row, at } = self;
         let owner = match row.each {
             Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
-            Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
+            Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar => &scene.boundaries[at.boundary.index()].name,
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
             Each::Insertion => &scene.insertions[at.place()].name,
             Each::Outlet => &scene.outlets[at.place()].name,
@@ -112,7 +120,7 @@ impl Source {
         };
         let own = row.each.names()[at.axis()];
         let number = (at.node() + 1).to_string();
-        let node = if row.each == Each::Node { format!("node[{number}]") } else { String::new() };
+        let node = self.node().map_or_else(String::new, |_| format!("node[{number}]"));
         let parts = [owner, &node, row.name, own].into_iter().filter(|part| !part.is_empty());
         let described = row.description.replace("{axis}", own).replace("{node}", &number);
         Variable {

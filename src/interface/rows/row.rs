@@ -33,6 +33,8 @@ pub(in crate::interface) enum Each {
     Axis,
     /// One for each node that moves by itself and axis: `<boundary>.node[<number>].<name>.<axis>`.
     Node,
+    /// One for each node that moves by itself: `<boundary>.node[<number>].<name>`.
+    NodeScalar,
     /// One for each insertion: `<insertion>.<name>`.
     Insertion,
     /// One for each outlet: `<outlet>.<name>`.
@@ -67,6 +69,7 @@ impl Each {
             Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary
+            | Self::NodeScalar
             | Self::Region
             | Self::Insertion
             | Self::Outlet

@@ -277,6 +277,8 @@ pub trait Heat: Coefficients {
     const NAME: &'static str;
     /// What the scene writes under the model's name.
     type Keys: ModelKeys;
+    /// What of a contact it looks at: `section` where it wants the radii of both bodies.
+    const NEEDS: Needs = Needs::NONE;
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
     /// Heat flow from the warmer body to the colder over the difference of their temperatures \[W/K\].

@@ -28,7 +28,7 @@ use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use crate::laws::contact::Needs;
 pub(crate) use crate::laws::contact::batch::{Buffer, ContactGeometry, Entries, FOUND, SpherePair, Touching};
-use crate::laws::contact::batch::{EntryEvaluation, Stage};
+use crate::laws::contact::batch::{Conducting, EntryEvaluation, Stage};
 pub(crate) use deepest::DeepestSearch;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
@@ -96,6 +96,9 @@ pub(crate) trait Bodies: Copy {
     /// Adds heat \[J\] that two bodies share to them.
     fn warm(&self, first: u32, second: u32, heat: f64, sum: &mut Self::Sum);
 
+    /// Lets heat flow between the bodies of some entries over these conductances \[W/K\], one by one.
+    fn conduct(&self, entries: [&[u32]; 2], conductance: &[f64], sum: &mut Self::Sum);
+
     /// Adds the loads of touching entries to their bodies, one by one.
     fn spread(&self, touching: &Touching, needs: Needs, sum: &mut Self::Sum);
 }
@@ -141,6 +144,8 @@ pub(crate) struct Batches<'a, B> {
     pub width: Width,
     /// Who looks for the deepest contact.
     pub deepest: &'a DeepestSearch,
+    /// What conducts heat, if anything does.
+    pub conducting: Option<Conducting<'a>>,
 }
 
 impl<B: Bodies> Batches<'_, B> {
@@ -207,6 +212,14 @@ impl<B: Bodies> Batches<'_, B> {
             let is_suppressed = matches!(manner, Some(EntryEvaluation::Followed));
             if self.meet(needs, buffer) && !is_suppressed {
                 self.deepest.look(&bodies, buffer);
+            }
+            // What a bond suppresses conducts in the stage of heat: few of it are evaluated here.
+            if let Some(conducting) = &self.conducting
+                && !matches!(manner, Some(EntryEvaluation::Bonded | EntryEvaluation::Followed))
+            {
+                conducting.find(width, self.stage(buffer));
+                let ends = [&buffer.first[..buffer.ready], &buffer.second[..buffer.ready]];
+                bodies.conduct(ends, buffer.conductance(), sum);
             }
             let stage = &mut self.stage(buffer);
             for run in runs {
