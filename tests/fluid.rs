@@ -389,6 +389,40 @@ losses = true
 }
 
 #[test]
+fn settling_ends_where_the_floor_bears_what_the_water_does_not() {
+    let mut simulation = start(
+        r#"
+gravity = [0.0, 0.0, -9.81]
+[run]
+step = 1.0e-5
+[material.glass]
+density = 2500.0
+youngs_modulus = 1e7
+poissons_ratio = 0.25
+[pair.glass.glass]
+restitution = 0.5
+[contact.all.normal.hertz]
+[particles.grain]
+material = "glass"
+list = [{ position = [0.0, 0.0, 1.0e-3], radius = 1.0e-3 }]
+[boundary.floor]
+plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+material = "glass"
+[fluid.water]
+density = 1000.0
+viscosity = 1.0e-3
+velocity = [0.0, 0.0, 0.05]
+[fluid.water.drag.stokes]
+"#,
+    );
+    // Damping of settling vanishes where the whole load does, drag included.
+    simulation.damp_rest(0.5);
+    simulation.advance(0.1).unwrap();
+    let expected = PI / 6.0 * 8e-9 * 1500.0 * 9.81 - 3.0 * PI * 1e-3 * 2e-3 * 0.05;
+    assert_near(-simulation.state().boundaries[0].force[2], expected, 1e-9);
+}
+
+#[test]
 fn a_driven_velocity_is_reached_at_the_end_of_the_step_on_a_ramp() {
     // A light grain follows: its velocity is that of the fluid, a relaxation time ago.
     let mut simulation = grain(DIAMETER, (VISCOSITY, 1e-5), "velocity = \"driven\"\n[fluid.water.drag.stokes]", "");
