@@ -2,13 +2,14 @@
 
 use super::columns;
 use super::named_tables::{Named, all, names};
+use super::properties;
 use crate::base::document::Mistake;
 use crate::base::document::messages;
 use crate::base::document::{Document, Faults, Part};
 use crate::laws::bond::keys::{BreakageChoice, Keys};
 use crate::laws::column::Column;
 use crate::laws::contact::{
-    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
+    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, Properties, Property, RollingModel, TangentialModel,
 };
 use crate::laws::drag::DragModel;
 use crate::laws::region;
@@ -20,6 +21,7 @@ use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, FluidTable, ForceTable, HeatSourceTable, HeatTable,
     MaterialTable, ParticlesTable, RunTable, TABLES, Triple,
 };
+use crate::scene::grid::GridKeys;
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
 
@@ -34,7 +36,7 @@ pub(in crate::scene::file) struct RawTables {
     /// `[material.<name>]`
     pub(super) materials: Named<MaterialTable>,
     /// `[pair.<a>.<b>]`
-    pub(super) pairs: Vec<([String; 2], PairProperties)>,
+    pub(super) pairs: Vec<([String; 2], Properties)>,
     /// `[contact.<name>]`
     pub(super) contacts: Named<Law>,
     /// `[bond.<name>]`
@@ -61,6 +63,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) fluid: Option<(String, FluidTable, DragModel)>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
+    /// `[grid.<name>]`
+    pub(super) grids: Named<GridKeys>,
     /// `[insertion.<name>]`
     pub(super) insertions: Named<InsertionKeys>,
     /// `[outlet.<name>]`
@@ -150,8 +154,8 @@ impl RawTables {
             faults.add("material", "", Mistake::Unexpected { found, expected });
             return None;
         }
-        let materials = all(document, "material", faults);
-        let pairs = pairs(document, faults);
+        let materials = properties::materials(document, &models.material_properties(), faults);
+        let pairs = pairs(document, &models.pair_properties(), faults);
         let contacts = laws(document, models, faults);
         let bonds = bonds(document, models, faults);
         let clumps = all(document, "clump", faults);
@@ -163,6 +167,7 @@ impl RawTables {
         let heat_sources = all(document, "heat_source", faults);
         let fluid = fluid(document, models, faults);
         let regions = all(document, "region", faults);
+        let grids = all(document, "grid", faults);
         let insertions = columns::insertions(document, &models.columns, faults);
         let outlets = all(document, "outlet", faults);
         let meters = all(document, "flow_meter", faults);
@@ -195,6 +200,7 @@ impl RawTables {
             heat_sources,
             fluid,
             regions,
+            grids,
             insertions,
             outlets,
             meters,
@@ -227,12 +233,14 @@ fn unknown_tables(document: &Document, faults: &mut Faults) {
 }
 
 /// All properties of pairs; both orders of one pair must say the same.
-fn pairs(document: &Document, faults: &mut Faults) -> Vec<([String; 2], PairProperties)> {
-    let mut pairs: Vec<([String; 2], PairProperties)> = Vec::new();
+fn pairs(document: &Document, keys: &[&'static Property], faults: &mut Faults) -> Vec<([String; 2], Properties)> {
+    let mut pairs: Vec<([String; 2], Properties)> = Vec::new();
     let mut known: BTreeMap<[String; 2], usize> = BTreeMap::new();
     for a in names(document, "pair", faults) {
         for b in names(document, &format!("pair.{a}"), faults) {
-            let Some(properties) = document.read(&format!("pair.{a}.{b}"), faults) else { continue };
+            let Some(properties) = properties::of_pair(document, &format!("pair.{a}.{b}"), keys, faults) else {
+                continue;
+            };
             let mirrored = [b.clone(), a.clone()];
             match known.get(&mirrored) {
                 Some(place) if pairs[*place].1 != properties => asymmetric(document, &a, &b, faults),
