@@ -249,7 +249,6 @@ fn wind_on_a_box_of_grains_gives_them_what_it_loses() {
     };
     for _ in 0..5 {
         let before = [0, 1].map(|axis| momentum(&simulation, axis));
-        let floor = simulation.state().boundaries[0].clone();
         simulation.advance(4e-4).unwrap();
         for axis in 0..2 {
             let name = format!("air.mean_drag.{}", ["x", "y"][axis]);
