@@ -62,5 +62,6 @@ mod surface_courses;
 mod surfaces;
 mod told_forces;
 mod touching_starts;
+mod traces;
 mod units;
 mod vibrating_bonds;

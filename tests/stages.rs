@@ -30,6 +30,7 @@ from_losses = ["normal_damping", "tangential_damping", "sliding"]
 [output]
 energy = true
 losses = true
+impacts = {}
 "#;
 
 /// Everything that stands in no cell: what is there, what comes and goes, and what moves it.
@@ -182,6 +183,7 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
         }
         Part::Heat => a.heat == b.heat,
         Part::Fluid => a.fluid == b.fluid,
+        Part::Traces => a.traces == b.traces,
         Part::Speed => a.clock.speed == b.clock.speed && a.foresight == b.foresight,
     }
 }

@@ -17,4 +17,5 @@ pub mod simulation;
 pub(crate) mod stability;
 pub mod state;
 pub mod statics;
+pub(crate) mod traces;
 pub(crate) mod transfer;

@@ -8,3 +8,4 @@ mod kept;
 pub mod motion;
 pub mod region;
 pub mod surface;
+pub mod wear;

@@ -52,7 +52,7 @@ pub use grid::{Grid, GridOutput};
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
-pub use output::Output;
+pub use output::{EnergyBins, Impacts, Output};
 pub use parameters::Parameter;
 pub(crate) use plane::objections as plane_objections;
 pub use plane::{MotionPlane, ParticleShape};

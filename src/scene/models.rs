@@ -8,6 +8,7 @@ use crate::laws::contact::{
 };
 use crate::laws::drag::{self, Drag, DragRow};
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
+use crate::laws::wear::{self, Wear, WearRow};
 
 /// The sub-models, rules of breakage, shapes and drag laws that scenes may name: those of the program, and those that another crate adds.
 ///
@@ -37,6 +38,8 @@ pub struct Models {
     pub(crate) shapes: Vec<&'static ShapeRow>,
     /// Drag laws of fluids.
     pub(crate) drag: Vec<&'static DragRow>,
+    /// Models of wear.
+    pub(crate) wear: Vec<&'static WearRow>,
     /// Columns of particles that scenes may ask for.
     pub(crate) columns: Vec<&'static Column>,
 }
@@ -59,6 +62,7 @@ impl Models {
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
             drag: drag::STANDARD.to_vec(),
+            wear: wear::STANDARD.to_vec(),
             columns: vec![&TEMPERATURE],
         }
     }
@@ -108,6 +112,12 @@ impl Models {
     /// The same and a drag law, in place of one of the same name.
     pub fn with_drag<D: Drag>(mut self) -> Self {
         put(&mut self.drag, DragRow::of::<D>(), DragRow::name);
+        self
+    }
+
+    /// The same and a model of wear, in place of one of the same name.
+    pub fn with_wear<W: Wear>(mut self) -> Self {
+        put(&mut self.wear, WearRow::of::<W>(), WearRow::name);
         self
     }
 

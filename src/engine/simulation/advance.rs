@@ -82,6 +82,9 @@ impl Simulation {
             cell.begin(&mut self.state, interval)?;
         }
         self.state.breaks.clear();
+        if let Some(traces) = &mut self.state.traces {
+            traces.impacts.clear();
+        }
         if let Some(flow) = &self.flow {
             flow.begin(&mut self.state, interval);
         }

@@ -9,6 +9,7 @@ use crate::engine::cell::Cell;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::batches::BatchLaw;
 use crate::engine::contacts::coefficients::{self, CoefficientTable};
+use crate::engine::contacts::followed::FollowedPairs;
 use crate::engine::contacts::particles::ContactPass;
 use crate::engine::contacts::surfaces::SurfacePass;
 use crate::engine::flow;
@@ -18,6 +19,7 @@ use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Deepest, Foresight, Ledger, Losses, Neighbours, Nodes, Pace,
     Particles, State, WallContacts,
 };
+use crate::engine::traces;
 use crate::engine::transfer;
 use crate::scene::{Boundary, Particle, Scene};
 use std::sync::Mutex;
@@ -51,6 +53,7 @@ pub(super) fn state(scene: &Scene) -> State {
         clumps: ClumpBodies::begun(scene),
         heat: transfer::begun(scene),
         fluid: fluid::begun(scene),
+        traces: traces::begun(scene),
         particles,
     }
 }
@@ -171,5 +174,6 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
         table: CoefficientTable::of(law, scene),
         law: BatchLaw::of(scene.law(index)),
         lost: Mutex::default(),
+        followed: FollowedPairs::of(scene),
     }
 }

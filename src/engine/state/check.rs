@@ -13,7 +13,7 @@ use super::{
 };
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
-const MOST: u64 = 1 << 48;
+pub(super) const MOST: u64 = 1 << 48;
 
 /// Why a state cannot be one of its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -120,6 +120,10 @@ impl State {
             heat.check(other, self.particles.slot.len(), self.exchange.is_none())?;
         }
         demand(self.fluid.is_some() == other.fluid.is_some(), "fluid", 0, "a fluid where the scene has one")?;
+        demand(self.traces.is_some() == other.traces.is_some(), "traces", 0, "traces where the scene asks for them")?;
+        if let (Some(traces), Some(other)) = (&self.traces, &other.traces) {
+            traces.check(other, self.particles.slot.len())?;
+        }
         let same = "as many as the scene has";
         let declared = self.particles.declared.len();
         demand(declared == other.particles.declared.len(), "declared", declared, same)?;

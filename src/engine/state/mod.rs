@@ -25,6 +25,7 @@ pub mod pace;
 pub mod particles;
 mod plain;
 pub mod snapshot;
+pub mod traces;
 
 pub use bonds::{BondList, Break};
 pub use boundaries::{BoundaryState, Orientation, Stand};
@@ -46,6 +47,7 @@ pub use nodes::Nodes;
 pub use number::InsertedParticle;
 pub use pace::Pace;
 pub use particles::{GONE, IMAGE, Particles};
+pub use traces::{FacetTraces, Impact, ImpactBin, ImpactRecord, Traces};
 
 pub use crate::base::number::Row;
 
@@ -105,6 +107,8 @@ pub struct State {
     pub heat: Option<Heat>,
     /// The fluid around the particles, where the scene has one.
     pub fluid: Option<FluidState>,
+    /// What contacts leave behind, where the scene asks for it.
+    pub traces: Option<Traces>,
 }
 
 clone_in_place!(State {
@@ -131,7 +135,8 @@ clone_in_place!(State {
     exchange,
     cell,
     heat,
-    fluid
+    fluid,
+    traces
 });
 
 impl State {
@@ -220,7 +225,8 @@ impl State {
         let bonds = self.bonds.iter().flat_map(|list| [list.relaxed, list.damped, list.released]);
         let net = self.exchange.iter().map(|exchange| &exchange.net);
         let exchanged = net.flat_map(|net| [net.kinetic, net.elastic, net.potential, net.turnover]);
-        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(self.works());
+        let traces = self.traces.iter().flat_map(Traces::sums);
+        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(traces).chain(self.works());
         let fluid = self.fluid.iter().map(|fluid| fluid.work);
         all.chain(fluid).map(f64::abs).sum::<f64>().is_finite()
     }
@@ -249,6 +255,9 @@ impl State {
         }
         if let Some(fluid) = &mut self.fluid {
             fluid.begin_counting();
+        }
+        if let Some(traces) = &mut self.traces {
+            traces.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

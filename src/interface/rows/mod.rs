@@ -13,6 +13,7 @@ mod probes;
 mod regions;
 mod row;
 mod scene;
+mod traces;
 
 use crate::base::quantity::BoundaryIndex;
 use crate::interface::{Causality, Variable};
@@ -29,6 +30,7 @@ use regions::OF_REGIONS;
 use row::Each;
 pub(super) use row::{At, Present, ReadRate, Row};
 use scene::{OF_LOSSES, OF_SCENE};
+use traces::OF_TRACES;
 
 /// Where a variable's row stands, and which of the row's variables it is.
 #[derive(Clone, Copy)]
@@ -60,7 +62,8 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         let of_nodes = OF_NODES
             .iter()
             .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_element(node))));
-        OF_BOUNDARIES.iter().chain(&OF_HEATED).map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
+        let all = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_TRACES);
+        all.map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
     });
     let each = |rows: &'static [Row], count: usize| {
         (0..count).flat_map(move |place| rows.iter().map(move |row| (row, none.at_place(place))))
@@ -93,8 +96,14 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
     let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN).chain(&OF_PROBES);
-    let of_parts =
-        OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_NODES).chain(&OF_REGIONS).chain(&OF_GRIDS).chain(exchange);
+    let of_parts = OF_BOUNDARIES
+        .iter()
+        .chain(&OF_HEATED)
+        .chain(&OF_TRACES)
+        .chain(&OF_NODES)
+        .chain(&OF_REGIONS)
+        .chain(&OF_GRIDS)
+        .chain(exchange);
     of_parts.chain(&OF_FLUID).chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 

@@ -55,6 +55,8 @@ pub enum Part {
     Heat,
     /// The fluid: its velocity, and what it exchanged with the particles.
     Fluid,
+    /// What contacts leave behind: wear, losses of facets, impacts that ended.
+    Traces,
     /// Energy books, and the impulse of global damping.
     Books,
     /// The largest speed of what forces move, and how far all went since the stable step was found.
@@ -63,7 +65,7 @@ pub enum Part {
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Places,
         Self::Motions,
         Self::Loads,
@@ -76,6 +78,7 @@ impl Part {
         Self::Cell,
         Self::Heat,
         Self::Fluid,
+        Self::Traces,
         Self::Books,
         Self::Speed,
     ];

@@ -2,6 +2,7 @@
 
 use super::Part::{
     Bonds, Books, Boundaries, Cell, Clumps, Contacts, Fluid, Heat, Lists, Loads, Motions, Particles, Places, Speed,
+    Traces,
 };
 use super::{Phase, Simulation, Stage};
 use crate::engine::state::ledger::Source;
@@ -96,7 +97,7 @@ const MOTION: &[Stage] = &[
         scenes: "insertions, outlets, flow meters",
         is_needed: |it| it.flow.is_some(),
         reads: &[Motions, Boundaries],
-        writes: &[Places, Motions, Loads, Particles, Lists, Contacts, Bonds, Clumps, Cell, Books, Speed],
+        writes: &[Places, Motions, Loads, Particles, Lists, Contacts, Bonds, Clumps, Cell, Books, Speed, Traces],
         run: Simulation::exchange,
     },
     Stage {
@@ -148,7 +149,7 @@ const FORCES: &[Stage] = &[
         scenes: "contact laws",
         is_needed: |it| it.acts(Source::Contacts),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Books, Heat],
+        writes: &[Loads, Contacts, Books, Heat, Traces],
         run: |it, step| it.act(Source::Contacts, step),
     },
     Stage {
@@ -220,7 +221,7 @@ const FORCES: &[Stage] = &[
         scenes: "surfaces that particles may meet",
         is_needed: |it| it.acts(Source::Walls),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Boundaries, Books, Heat],
+        writes: &[Loads, Contacts, Boundaries, Books, Heat, Traces],
         run: |it, step| it.act(Source::Walls, step),
     },
     Stage {

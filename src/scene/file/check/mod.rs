@@ -153,8 +153,8 @@ impl SceneDraft {
 fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let repeated = cell::repeat_surfaces(draft);
     grid::repeat(&mut draft.grids, draft.cell.as_ref());
-    // Losses that warm are found by the book of losses.
-    draft.output.losses |= draft.heat.warms();
+    // Losses that warm, and those of single impacts, are found by the book of losses.
+    draft.output.losses |= draft.heat.warms() || draft.output.impacts.is_some();
     let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
@@ -165,8 +165,8 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let others = others
         .chain(column::objections(draft))
         .chain(crate::scene::heat::objections(draft))
-        .chain(crate::scene::fluid::objections(draft))
-        .chain(grid::objections(draft));
+        .chain(grid::objections(draft))
+        .chain(crate::scene::fluid::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);

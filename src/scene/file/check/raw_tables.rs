@@ -14,6 +14,7 @@ use crate::laws::contact::{
 use crate::laws::drag::DragModel;
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
+use crate::laws::wear::WearModel;
 use crate::scene::cell::CellKeys;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
@@ -339,14 +340,15 @@ fn breakage(document: &Document, bond: &str, models: &Models, faults: &mut Fault
 
 /// All boundaries.
 fn boundaries(document: &Document, models: &Models, faults: &mut Faults) -> Named<BoundaryTable> {
-    let known: Vec<&str> = models.shapes.iter().map(|row| row.key).collect();
+    let known: Vec<&str> = models.shapes.iter().map(|row| row.key).chain(["wear"]).collect();
     let mut boundaries = Vec::new();
     for name in names(document, "boundary", faults) {
         let path = format!("boundary.{name}");
         let table: Option<BoundaryTable> = document.read_part(&path, "", Part::Except(&known), faults);
         let there = models.shapes.iter().filter(|row| document.has(&format!("{path}.{}", row.key)));
         let shapes = there.filter_map(|row| Some((*row, (row.read)(document, &path, faults)?))).collect();
-        boundaries.extend(table.map(|table| (name, BoundaryTable { shapes, ..table })));
+        let wear = wear(document, &path, models, faults);
+        boundaries.extend(table.map(|table| (name, BoundaryTable { shapes, wear, ..table })));
     }
     boundaries
 }
@@ -386,6 +388,30 @@ fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<(S
     };
     let drag = row.read(document, &laws, faults)?;
     Some((name, table?, drag))
+}
+
+/// The models of wear of a boundary.
+fn wear(document: &Document, boundary: &str, models: &Models, faults: &mut Faults) -> Vec<WearModel> {
+    let path = format!("{boundary}.wear");
+    if !document.has(&path) {
+        return Vec::new();
+    }
+    let names = if document.is_table(&path) { document.names(&path) } else { Vec::new() };
+    if names.is_empty() {
+        let found = if document.is_table(&path) { "no model" } else { document.written(&path) };
+        let expected = format!("a table [{path}.<model>]");
+        faults.add(boundary, "wear", Mistake::Unexpected { found: found.to_owned(), expected });
+    }
+    let read = |name: &String| {
+        let Some(row) = models.wear.iter().find(|row| row.name() == name) else {
+            let known = models.wear.iter().map(|row| row.name().to_owned()).collect();
+            let mistake = Mistake::UnknownModel { found: name.clone(), kind: "wear", known };
+            faults.add(&format!("{path}.{name}"), "", mistake);
+            return None;
+        };
+        row.read(document, &path, faults)
+    };
+    names.iter().filter_map(read).collect()
 }
 
 /// The sub-model of a kind, if the law names one.

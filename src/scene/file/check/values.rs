@@ -24,13 +24,13 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
         body(boundary, draft, &mut at);
     }
     bonds(draft, &mut at);
-    if let Some(it) = &draft.fluid {
-        at.name = format!("fluid.{}", it.name);
-        fluid(it, &mut at);
-    }
     for it in &draft.grids {
         at.name = format!("grid.{}", it.name);
         grid(it, &mut at);
+    }
+    if let Some(it) = &draft.fluid {
+        at.name = format!("fluid.{}", it.name);
+        fluid(it, &mut at);
     }
     for insertion in &draft.insertions {
         at.name = format!("insertion.{}", insertion.name);
