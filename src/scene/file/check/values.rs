@@ -3,10 +3,11 @@
 
 use super::named_tables::is_name;
 use crate::base::document::{Faults, Mistake};
-use crate::base::quantity::SetIndex;
+use crate::base::quantity::{Porosity, SetIndex};
 use crate::laws::bond::creation::ListedPairs;
+use crate::laws::contact::Properties;
 use crate::scene::file::tables::is_positive_definite;
-use crate::scene::{AxisMotion, Boundary, ColumnStart, Grid, Insertion, Outlet, OutletPlace, SceneDraft, Step};
+use crate::scene::{AxisMotion, Boundary, ColumnStart, Fluid, Grid, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use std::collections::BTreeSet;
 
 /// Reports every value that its key does not take.
@@ -26,6 +27,10 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     for it in &draft.grids {
         at.name = format!("grid.{}", it.name);
         grid(it, &mut at);
+    }
+    if let Some(it) = &draft.fluid {
+        at.name = format!("fluid.{}", it.name);
+        fluid(it, &mut at);
     }
     for insertion in &draft.insertions {
         at.name = format!("insertion.{}", insertion.name);
@@ -155,6 +160,16 @@ fn names(draft: &SceneDraft, at: &mut Table) {
     }
 }
 
+/// `[fluid.<name>]`
+fn fluid(fluid: &Fluid, at: &mut Table) {
+    at.positive("density", fluid.density);
+    at.positive("viscosity", fluid.viscosity);
+    if let Some(porosity) = fluid.porosity.filter(|it| Porosity::new(*it).is_none()) {
+        at.wrong("porosity", format!("{porosity:?}"), "a number above 0 and at most 1");
+    }
+    at.finite("velocity", &fluid.velocity.at_start());
+}
+
 /// `[run]`, `gravity` and `[domain]`
 fn run(draft: &SceneDraft, at: &mut Table) {
     at.name = String::new();
@@ -200,6 +215,16 @@ fn run(draft: &SceneDraft, at: &mut Table) {
     }
 }
 
+/// Properties that laws declare.
+fn properties(given: &Properties, at: &mut Table) {
+    for (property, value) in given.iter() {
+        if let Err(message) = property.range.check(value) {
+            let expected = message.trim_start_matches("expected ").split(", found").next().unwrap_or_default();
+            at.wrong(property.name, format!("{value:?}"), expected);
+        }
+    }
+}
+
 /// `[material.<name>]`, `[pair.<a>.<b>]` and which of them the contact laws are for.
 fn materials(draft: &SceneDraft, at: &mut Table) {
     for material in &draft.materials {
@@ -209,10 +234,12 @@ fn materials(draft: &SceneDraft, at: &mut Table) {
         if let Some(ratio) = material.poissons_ratio.filter(|ratio| !(0.0..=0.5).contains(ratio)) {
             at.wrong("poissons_ratio", format!("{ratio:?}"), "a number from 0 to 0.5");
         }
+        properties(&material.properties, at);
     }
     let count = draft.materials.len();
     at.name = "pair".to_owned();
     at.length("", draft.pairs.len(), count * count);
+    draft.pairs.iter().for_each(|pair| properties(pair, at));
     if draft.pairs.len() == count * count {
         at.mirrored("", count, |one, other| draft.pairs[one] == draft.pairs[other]);
     }
