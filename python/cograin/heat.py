@@ -18,10 +18,12 @@ class HeatCapacity(Structure):
     ``capacity`` \\[J/K\\] and ``conductance`` \\[W/K\\] are numbers, diagonals, or matrices, as finite elements give
     them; ``at`` says which temperatures the interface has, as in a `Structure`. ``ambient`` \\[K\\] is where the
     conductance leads, ``start`` \\[K\\] the temperature at time 0. ``load(time)`` are other heat flows \\[W\\].
+    Without any capacity (0) the conductance holds it: T = ambient + K⁻¹ heat flow at the end of a step.
 
     It is coupled by ``Interface(unit, "floor.temperature")``: temperatures in, mean heat flows of the particles into
     the boundary out. A step is that of a `Structure` without mass: the midpoint rule, of second order. What one side
-    gives, the other one takes, to rounding. Steps that are long against C/K let temperatures swing about their course.
+    gives, the other one takes and keeps, to rounding: where both temperatures differ, at most by the tolerance of the
+    exchange, each side keeps its own. Steps that are long against C/K let temperatures swing about their course.
     The book is ``heat + load_heat = stored + lost``.
     """
 
@@ -37,8 +39,8 @@ class HeatCapacity(Structure):
         substeps: int = 1,
     ) -> None:
         super().__init__(0.0, conductance, capacity, at=at, load=self._flows, substeps=substeps)
-        if not (self.damping.diagonal() > 0.0).all():
-            raise ValueError("capacity: expected numbers above 0, found others")
+        if not self.static and not (self.damping.diagonal() > 0.0).all():
+            raise ValueError("capacity: expected numbers above 0, or 0 everywhere, found others")
         self.ambient = float(ambient)
         self._given = load
         self._leading = vector(self.stiffness @ np.ones(len(self.free)))  # to the ambient [W/K]
@@ -75,6 +77,10 @@ class HeatCapacity(Structure):
     def drift(self, force: Vector, step: Step) -> Vector:
         """None: heat has no inertia."""
         raise ValueError("HeatCapacity: velocity Verlet needs a mass; heat has none")
+
+    def _stand(self, displacement: Vector, force: Vector, step: Step) -> None:
+        """The interface is where the units are. Its own temperatures stay: heat would come from nowhere."""
+        self.displacement = displacement
 
     def memory(self) -> Any:
         return {**super().memory(), "heat": self.heat, "load_heat": self.load_heat}
