@@ -38,25 +38,46 @@ class HeatCapacity(Structure):
         load: Load | None = None,
         substeps: int = 1,
     ) -> None:
+        self._base = 0.0
         super().__init__(0.0, conductance, capacity, at=at, load=self._flows, substeps=substeps)
         if not self.static and not (self.damping.diagonal() > 0.0).all():
             raise ValueError("capacity: expected numbers above 0, or 0 everywhere, found others")
         self.ambient = float(ambient)
         self._given = load
         self._leading = vector(self.stiffness @ np.ones(len(self.free)))  # to the ambient [W/K]
+        self.place(start)
+
+    def place(self, position: ArrayLike | None = None, velocity: ArrayLike | None = None) -> None:
+        """Sets the temperatures \\[K\\]; the book begins anew. They have no velocity."""
+        if velocity is not None:
+            raise ValueError("HeatCapacity: expected temperatures, found velocities; heat has none")
+        if position is not None:
+            # Steps are made in differences to this one, so that small heats do not drown in 300 K [K].
+            self._base = float(np.mean(vector(position)))
+            super().place(vector(position) - self._base)
+        self.displacement = self._at_interface(self.position)
+        self._first = self.position.copy()
         self.heat = 0.0  # of the particles [J]
         self.load_heat = 0.0  # of the load [J]
-        self.place(start)
-        self._first = self.position.copy()
+
+    def _at_interface(self, position: Vector) -> Vector:
+        """Temperatures of the interface at these differences \\[K\\]."""
+        found: Vector = self.at.T @ position + self._base * self.at.sum(axis=0)
+        return found
 
     @property
     def temperature(self) -> Vector:
         """Present temperatures \\[K\\]."""
-        return self.position.copy()
+        return self.position + self._base
+
+    @property
+    def field(self) -> Vector:
+        """The same."""
+        return self.temperature
 
     @property
     def stored(self) -> float:
-        """Heat that it holds more than at time 0 \\[J\\]."""
+        """Heat that it holds more than at the start \\[J\\]."""
         return float((self.damping @ (self.position - self._first)).sum())
 
     @property
@@ -86,6 +107,6 @@ class HeatCapacity(Structure):
         return {**super().memory(), "heat": self.heat, "load_heat": self.load_heat}
 
     def _flows(self, time: float) -> Vector:
-        """Heat flows of load and ambient \\[W\\]."""
+        """Heat flows of load and ambient \\[W\\], as far as they are not in the differences."""
         own = 0.0 if self._given is None else vector(self._given(time))
-        return vector(self._leading * self.ambient + own)
+        return vector(self._leading * (self.ambient - self._base) + own)

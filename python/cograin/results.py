@@ -293,6 +293,16 @@ class Frame:
         return None if cell is None or len(cell) < 6 else cell.points[1:6:2] - cell.points[0:6:2]
 
 
+def frames_in(folder: str | Path) -> list[Frame]:
+    """The frames in a folder, as a run or a unit (``run.frames``) leaves them, in their order; none without any."""
+    path = Path(folder) / "particles.pvd"
+    if not path.is_file():
+        return []
+    text = path.read_text(encoding="utf-8")
+    found = re.findall(r'timestep="([^"]+)"[^>]*file="particles_(\d+)\.vtu"', text)
+    return [Frame(Path(folder), int(number), float(time)) for time, number in found]
+
+
 class Run:
     """The results of ``cograin run`` in a folder: `history`, `summary`, `breakage`, `frames`."""
 
@@ -339,9 +349,11 @@ class Run:
     @property
     def frames(self) -> list[Frame]:
         """The frames, in their order; they are read when they are asked for."""
-        path = self.folder / "particles.pvd"
-        if not path.is_file():
-            return []
-        text = path.read_text(encoding="utf-8")
-        found = re.findall(r'timestep="([^"]+)"[^>]*file="particles_(\d+)\.vtu"', text)
-        return [Frame(self.folder, int(number), float(time)) for time, number in found]
+        return frames_in(self.folder)
+
+    def frame_at(self, time: float) -> Frame:
+        """The frame that is nearest to a time \\[s\\]."""
+        frames = self.frames
+        if not frames:
+            raise ResultError(f"{self.folder}: expected frames; [output] frame_interval writes them")
+        return min(frames, key=lambda frame: abs(frame.time - time))

@@ -135,7 +135,7 @@ def test_a_structure_of_first_order_is_the_same():
         partner.place([300.0, 310.0])
         bed = Heated(["wall"])
         couple(Interface(bed, "wall.temperature"), partner, Secant(), step=0.1, end=1.0)
-    assert first.position == pytest.approx(second.position, rel=1e-6), "as near as both sides agree"
+    assert first.position == pytest.approx(second.temperature, rel=1e-6), "as near as both sides agree"
 
 
 def test_temperatures_of_another_mesh_reach_the_nodes_and_no_heat_is_lost_on_the_way():
@@ -171,3 +171,17 @@ def test_nodes_of_several_temperatures_are_no_start_of_another_mesh():
 def test_exchanges_of_second_order_in_motion_are_refused(exchange, said):
     with pytest.raises(ValueError, match=said):
         heated(exchange(), 0.1)
+
+
+def test_small_heats_do_not_drown_in_the_temperature_that_all_have():
+    chain = 1e3 * (np.diag([1.0, 2.0, 1.0]) - np.diag([1.0, 1.0], 1) - np.diag([1.0, 1.0], -1))
+    plate = HeatCapacity([2.0, 3.0, 4.0], chain, start=300.0, at=[0], load=lambda time: [0.0, 0.0, 1e-9])
+    bed = Heated(["wall"])
+    bed.inside = np.full(1, COLD)
+    bed._answer(np.zeros(1))
+    couple(Interface(bed, "wall.temperature"), plate, Secant(), step=0.05, end=1.0)
+    assert plate.load_heat == pytest.approx(1e-9, rel=1e-12) and abs(plate.lost) < 1e-12 * plate.load_heat
+    with pytest.raises(ValueError, match="heat has none"):
+        plate.place(velocity=1.0)
+    plate.place(310.0)
+    assert (plate.stored, plate.heat, plate.load_heat) == (0.0, 0.0, 0.0) and plate.displacement == [310.0]

@@ -296,8 +296,98 @@ def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
 
 
 def test_a_bed_at_rest_is_not_coloured_by_its_rounding():
-    from cograin.plot import _still
+    from cograin.plot.values import ends, still
     from cograin.results import Cloud
 
-    bed = Cloud(np.zeros((3, 3)), {"radius": np.full(3, 1e-3)})
-    assert _still(bed, 2.0) == 5e-6 and _still(bed, 0.0) == 0.0
+    bed = Cloud(np.zeros((3, 3)), {"radius": np.full(3, 1e-3), "mass": np.full(3, 1e-5)})
+    assert still(bed, 2.0)["velocity"] == 5e-6 and still(bed, 0.0) == {}
+    assert ends(bed, "velocity", np.array([1e-12, 2e-12, 3e-12]), 2.0) == (1e-12, 5e-6)
+    assert ends(bed, "force", np.array([1e-16, 2e-16, 3e-16]), 2.0)[1] == pytest.approx(2.5e-11)
+    assert ends(bed, "temperature", np.array([300.0, 300.0, 301.0]), 2.0)[1] == pytest.approx(300.98)
+
+
+FALLING = """
+gravity = [0.0, 0.0, -10.0]
+[run]
+end = 0.004
+step = 1.0e-5
+[material.s]
+density = 2500.0
+[pair.s.s]
+normal_stiffness = 1.0e4
+normal_damping = 0.0
+[contact.touch.normal.hooke_stiffness]
+[clump.rod]
+spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }, { position = [0.01, 0.0, 0.0], radius = 0.01 }]
+[particles.balls]
+material = "s"
+list = [{ position = [0.0, 0.0, 0.1], radius = 0.01 }]
+[particles.rods]
+material = "s"
+clump = "rod"
+list = [{ position = [0.06, 0.0, 0.1], radius = 0.01 }]
+[boundary.tube]
+cylinder = { from = [0.0, 0.0, -0.1], to = [0.0, 0.0, 0.2], radius = 0.1 }
+material = "s"
+[output]
+frame_interval = 1.0e-3
+boundaries = true
+"""
+
+
+@pytest.fixture(scope="module")
+def falling(program, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("falling")
+    (folder / "scene.toml").write_text(FALLING)
+    program("run", folder / "scene.toml", "-o", folder / "out")
+    return Run(folder / "out")
+
+
+def test_a_force_means_the_same_on_a_sphere_and_on_a_clump(falling):
+    from cograin.plot.values import values
+
+    frame = falling.frames[-1]
+    ball, *rods = values(frame, frame.particles, "force")
+    # Nothing but weight acts: that of the ball, and that of the whole rod on both of its spheres.
+    assert ball == pytest.approx(10.0 * frame.particles["mass"][0])
+    assert rods == pytest.approx([10.0 * frame.clumps["mass"][0]] * 2)
+
+
+def test_a_slice_has_the_particles_that_it_cuts_and_the_walls(falling):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import packing
+
+    frame = falling.frames[-1]
+    circles, lines = (
+        packing(frame, "radius", "z", at=float(frame.particles.points[0, 2]) + 0.006).axes[0].collections[::-1]
+    )
+    assert circles.get_offsets().shape == (3, 2)
+    assert circles.get_widths()[0] == pytest.approx(2.0 * 0.008)
+    places = np.concatenate(lines.get_segments())
+    assert np.hypot(*places.T) == pytest.approx(np.full(len(places), 0.1), rel=0.02)
+    assert len(packing(frame, "radius", "z", at=0.19).axes[0].collections) == 1, "walls alone"
+
+
+def test_columns_time_names_and_format_are_chosen(falling, folder, tmp_path):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import history, main, packing
+
+    drawn = history(Run(folder).history, ["floor.force.z", "energy.kinetic"], over="floor.work")
+    assert [panel.get_xlabel().split(" [")[0] for panel in drawn.axes] == ["", "floor.work"]
+    words = ["--columns", "floor.force.z", "--over", "floor.work", "--format", "svg"]
+    assert main([str(folder), "-o", str(tmp_path), *words]) == 0
+    assert (tmp_path / "over_floor.work.svg").read_text().startswith("<?xml")
+    assert main([str(folder), "-o", str(tmp_path), "--columns", "floor.forze.z"]) == 2
+    assert falling.frame_at(0.0024).time == 0.002
+    legend = packing(falling.frames[0], "set", names={0: "balls", 1: "rods"}).axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["balls", "rods"]
+    words = ["--time", "0.002", "--by", "set", "--names", "balls", "rods", "--slice", "0.0"]
+    assert main([str(falling.folder), "-o", str(tmp_path / "chosen"), *words]) == 0
+    assert not (tmp_path / "chosen" / "animation.gif").exists()
+    assert main([str(falling.folder), "-o", str(tmp_path / "no"), "--by", "colour"]) == 2
+
+
+def test_temperatures_that_differ_by_little_are_told_apart():
+    from cograin.plot.space import _base
+
+    assert [_base(*ends) for ends in ((300.0001, 300.002), (0.0, 1.0), (300.0, 420.0), (5.0, 5.0))] == [300, 0, 0, 0]
