@@ -199,7 +199,7 @@ def save(run: Run, path: str | Path, **named: Any) -> Path:
     else:
         for module in ("trame_pyvista", "nest_asyncio2"):
             needed(module, "view")
-        plotter.export_html(path)
+        plotter.trame.export_html(path)
     plotter.close()
     return path
 

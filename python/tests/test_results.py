@@ -295,6 +295,15 @@ def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
     assert "expected one of radius" in capsys.readouterr().err
 
 
+def test_a_frame_is_a_page_that_stands_alone(folder, tmp_path):
+    pytest.importorskip("trame_pyvista")
+    from cograin.view import main
+
+    assert main([str(folder), "-o", str(tmp_path / "view.html"), "--time", "0.01"]) == 0
+    page = (tmp_path / "view.html").read_text()
+    assert len(page) > 1e5 and "<script src=" not in page
+
+
 def test_a_bed_at_rest_is_not_coloured_by_its_rounding():
     from cograin.plot.values import ends, still
     from cograin.results import Cloud
