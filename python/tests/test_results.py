@@ -5,7 +5,7 @@ import pytest
 from conftest import DROP
 
 from cograin import Interface, Oscillator, Secant, couple
-from cograin.results import ResultError, Run, read_frame, read_table, unit_of
+from cograin.results import ResultError, Run, joined, read_frame, read_table, unit_of
 
 SCENE = """
 gravity = [0.0, 0.0, -9.81]
@@ -293,6 +293,23 @@ def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
     for words in (["--by", "colour"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
         assert main([str(folder), *words]) == 2
     assert "expected one of radius" in capsys.readouterr().err
+
+
+def test_histories_of_a_run_that_went_on_beyond_its_end_join_as_one_longer_run(program, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE)
+    program("run", scene, "-o", tmp_path / "whole")
+    program("run", scene, "-o", tmp_path / "first", "--set", "run.end=0.01")
+    start = tmp_path / "first" / "checkpoint.cograin"
+    program("run", scene, "-o", tmp_path / "second", "--from", start)
+    whole, first, second = (Run(tmp_path / name).history for name in ("whole", "first", "second"))
+    found = joined(first, second)
+    assert list(found) == list(whole) and found.rows == whole.rows and second["floor.work"][0] == 0.0
+    for name in whole:
+        assert np.allclose(found[name], whole[name], rtol=1e-9, atol=1e-12 * np.abs(whole[name]).max()), name
+    assert found.unit_of("support") == "N"
+    with pytest.raises(ResultError, match=r"begins at a time of the one before, up to 0\.02 s, found 0 s"):
+        joined(second, first)
 
 
 def test_a_frame_is_a_page_that_stands_alone(folder, tmp_path):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+from io import BytesIO
 from typing import Any
 
 import numpy as np
@@ -15,10 +17,25 @@ LINES = ["-", "--", "-.", ":"]
 PREFIXED = {"m", "s", "N", "J", "W", "Pa", "N.m", "m/s"}
 
 
+@cache
+def _class() -> Any:
+    """A figure of matplotlib that a notebook shows, without its state of pyplot."""
+
+    class Picture(needed("matplotlib.figure", "plot").Figure):  # type: ignore[misc]
+        """A figure that a notebook shows."""
+
+        def _repr_png_(self) -> bytes:
+            written = BytesIO()
+            self.savefig(written, format="png", dpi=90)
+            return written.getvalue()
+
+    return Picture
+
+
 def figure(rows: int = 1, columns: int = 1, width: float = 7.0, height: float = 4.0) -> tuple[Any, Any]:
     """A figure with so many panels, whose columns share their first axis."""
     # A figure of its own: no window, no state of pyplot that others share.
-    drawn = needed("matplotlib.figure", "plot").Figure(figsize=(width, height * rows), layout="constrained")
+    drawn = _class()(figsize=(width, height * rows), layout="constrained")
     needed("matplotlib.backends.backend_agg", "plot").FigureCanvasAgg(drawn)
     return drawn, drawn.subplots(rows, columns, squeeze=False, sharex=rows > 1).ravel()
 
