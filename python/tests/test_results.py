@@ -1,5 +1,7 @@
 """What a run leaves comes back as numbers with their units, and as pictures."""
 
+import base64
+
 import numpy as np
 import pytest
 from conftest import DROP
@@ -310,6 +312,24 @@ def test_histories_of_a_run_that_went_on_beyond_its_end_join_as_one_longer_run(p
     assert found.unit_of("support") == "N"
     with pytest.raises(ResultError, match=r"begins at a time of the one before, up to 0\.02 s, found 0 s"):
         joined(second, first)
+
+
+def test_a_section_of_a_grid_shows_the_cells_that_a_plane_cuts(falling):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import section
+
+    numbers = np.arange(24, dtype="<f8")  # along x first, then y, then z
+    data = base64.b64encode(np.uint64(numbers.nbytes).tobytes() + numbers.tobytes()).decode()
+    frame = falling.frames[0]
+    (frame.folder / f"grid_air_{frame.number:06}.vti").write_text(
+        f'<VTKFile type="ImageData"><ImageData WholeExtent="0 4 0 3 0 2" Origin="0 0 0" Spacing="1 1 2"><Piece>'
+        "<CellData>"
+        f'<DataArray type="Float64" Name="density">{data}</DataArray></CellData></Piece></ImageData></VTKFile>'
+    )
+    drawn = section(frame, "air", view="y", at=0.99).axes[0]
+    assert drawn.collections[0].get_array().ravel().tolist() == [8.0, 9.0, 10.0, 11.0, 20.0, 21.0, 22.0, 23.0]
+    with pytest.raises(ResultError, match="expected view x, y or z"):
+        section(frame, "air", view="w")
 
 
 def test_a_frame_is_a_page_that_stands_alone(folder, tmp_path):

@@ -3,7 +3,7 @@
 use super::SceneDraft;
 use crate::laws::bond::creation::ContactPolicy;
 use crate::laws::contact::{HistoryRow, Law, OFFSET};
-use crate::scene::Probed;
+use crate::scene::{GridOutput, Probed};
 
 /// The contact law of each two materials: the only place that says which law governs a contact.
 #[derive(Clone, Debug)]
@@ -49,7 +49,8 @@ impl SceneDraft {
     /// Whether an output takes forces of single contacts.
     fn records_contacts(&self) -> bool {
         let probed = || self.probes.iter().any(|probe| matches!(probe.of, Probed::Contact(_)));
-        self.output.contacts || self.output.boundaries || !self.regions.is_empty() || probed()
+        let stress = || self.grids.iter().any(|grid| grid.tells(GridOutput::Stress));
+        self.output.contacts || self.output.boundaries || !self.regions.is_empty() || stress() || probed()
     }
 
     /// Rows that are kept of each contact of a law: those that the law remembers and, where bonds suppress contacts,

@@ -4,7 +4,7 @@ use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
 use crate::laws::column::{Column, TEMPERATURE};
 use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel,
-    NormalRow, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
+    NormalRow, Property, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow, property,
 };
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
 
@@ -105,6 +105,31 @@ impl Models {
     pub fn with_column(mut self, column: &'static Column) -> Self {
         put(&mut self.columns, column, |column| column.name);
         self
+    }
+
+    /// Keys of `[pair.<a>.<b>]`: those of the program, and those that sub-models declare.
+    pub(crate) fn pair_properties(&self) -> Vec<&'static Property> {
+        let mut all = property::STANDARD.to_vec();
+        self.declared(0).for_each(|declared| put(&mut all, declared, |property| property.name));
+        all
+    }
+
+    /// Keys of `[material.<name>]` that sub-models declare.
+    pub(crate) fn material_properties(&self) -> Vec<&'static Property> {
+        let mut all = Vec::new();
+        self.declared(1).for_each(|declared| put(&mut all, declared, |property| property.name));
+        all
+    }
+
+    /// Properties that sub-models declare, of pairs (0) or of materials (1).
+    fn declared(&self, kind: usize) -> impl Iterator<Item = &'static Property> {
+        let normal = self.normal.iter().map(|row| row.properties);
+        let tangential = self.tangential.iter().map(|row| row.properties);
+        let rolling = self.rolling.iter().map(|row| row.properties);
+        let cohesion = self.cohesion.iter().map(|row| row.properties);
+        let heat = self.heat.iter().map(|row| row.properties);
+        let all = normal.chain(tangential).chain(rolling).chain(cohesion).chain(heat);
+        all.flat_map(move |properties| properties[kind].iter().copied())
     }
 
     /// The normal sub-model of this name with these keys, if there is one and they are of its type.

@@ -10,7 +10,7 @@ pub struct Output {
     /// Time between rows of `history.csv` \[s\].
     #[serde(deserialize_with = "positive")]
     pub history_interval: Option<f64>,
-    /// Names of the columns of `history.csv`, `*` for any characters; none: all outputs but those of nodes.
+    /// Names of the columns of `history.csv`, `*` for any characters; none: all outputs but those of nodes and of cells of grids.
     pub columns: Option<Vec<String>>,
     /// Time between `.vtu` frames of the particles \[s\].
     #[serde(deserialize_with = "positive")]

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from cograin.plot.sections import section
 from cograin.plot.space import VIEWS, animation, cracks, force_chains, packing
 from cograin.plot.tables import energy, history
 from cograin.results import ResultError, Run, Table, read_table
@@ -79,6 +80,10 @@ def draw(
                 drawn = packing(frame, field, view, at=at, names=names)
                 drawn.savefig(folder.file(f"packing_{field}.{format}"), dpi=150)
             folder.keep("force_chains", lambda: force_chains(frame, view))
+            for grid in frame.grids:
+                for name in frame.grid(grid).fields:
+                    if name != "count_by_set":
+                        folder.keep(f"{grid}_{name}", lambda grid=grid, name=name: section(frame, grid, name, view))
         folder.keep("cracks", lambda: cracks(run, view))
         if len(frames) > 1 and time is None:
             animation(run, folder.file("animation.gif"), by, view, at=at, names=names)

@@ -21,7 +21,7 @@ AXES = "xyz"
 EDGES: dict[str, Any] = {"edgecolors": "#999999", "linewidths": 0.4}
 
 
-def _view(panel: Any, points: Any, radius: Any, view: str) -> None:
+def proportions(panel: Any, points: Any, radius: Any, view: str) -> None:
     """Axes that show all of these in their proportions."""
     if view not in VIEWS:
         raise ResultError(f"view: expected x, y or z, found {view}")
@@ -106,7 +106,7 @@ def packing(
     drawn, (panel,) = figure(height=5.5) if panel is None else (panel.figure, (panel,))
     particles = frame.particles
     radius = particles["radius"] if len(particles) else np.empty(0)
-    _view(panel, particles.points, radius, view)
+    proportions(panel, particles.points, radius, view)
     panel.set_title(f"t = {frame.time:.4g} s", fontsize=10)
     shown = np.ones(len(particles), dtype=bool)
     if at is not None:
@@ -172,7 +172,7 @@ def force_chains(frame: Frame, view: str = "y") -> Any:
         raise ResultError("force chains: expected files of contacts; [output] contacts = true writes them")
     drawn, (panel,) = figure(height=5.5)
     radius = particles["radius"] if len(particles) else np.empty(0)
-    _view(panel, particles.points, radius, view)
+    proportions(panel, particles.points, radius, view)
     if len(particles):
         _circles(panel, particles, view, radius, facecolors="none", edgecolors="#cccccc", linewidths=0.4)
     if len(contacts):
@@ -205,11 +205,11 @@ def cracks(run: Run, view: str = "y") -> Any:
     across, up, _, _ = VIEWS[view]
     if frames := run.frames:
         particles = frames[0].particles
-        _view(where, particles.points, particles["radius"], view)
+        proportions(where, particles.points, particles["radius"], view)
         faint = {"facecolors": "none", "edgecolors": "#dddddd", "linewidths": 0.3}
         _circles(where, particles, view, particles["radius"], **faint)
     else:
-        _view(where, points, np.zeros(len(points)), view)
+        proportions(where, points, np.zeros(len(points)), view)
     long, second = prefixed(times, "s")
     for place, cause in enumerate(causes):
         chosen = np.array([row["cause"] == cause for row in rows])

@@ -18,10 +18,10 @@ PREFIXED = {"m", "s", "N", "J", "W", "Pa", "N.m", "m/s"}
 
 
 @cache
-def _class() -> Any:
-    """A figure of matplotlib that a notebook shows, without its state of pyplot."""
+def _shown(base: Any) -> Any:
+    """A class of figures that a notebook shows, without the state of pyplot."""
 
-    class Picture(needed("matplotlib.figure", "plot").Figure):  # type: ignore[misc]
+    class Picture(base):  # type: ignore[misc]
         """A figure that a notebook shows."""
 
         def _repr_png_(self) -> bytes:
@@ -35,7 +35,7 @@ def _class() -> Any:
 def figure(rows: int = 1, columns: int = 1, width: float = 7.0, height: float = 4.0) -> tuple[Any, Any]:
     """A figure with so many panels, whose columns share their first axis."""
     # A figure of its own: no window, no state of pyplot that others share.
-    drawn = _class()(figsize=(width, height * rows), layout="constrained")
+    drawn = _shown(needed("matplotlib.figure", "plot").Figure)(figsize=(width, height * rows), layout="constrained")
     needed("matplotlib.backends.backend_agg", "plot").FigureCanvasAgg(drawn)
     return drawn, drawn.subplots(rows, columns, squeeze=False, sharex=rows > 1).ravel()
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,7 +11,9 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from cograin.results.arrays import array_of
 from cograin.results.errors import ResultError, reason
+from cograin.results.images import Image, read_image
 from cograin.results.table import listed
 from cograin.vector import Matrix
 
@@ -41,18 +42,6 @@ class Cloud:
         return f"<Cloud of {len(self)} points, {len(self.cells)} cells: {names}>"
 
 
-_TYPES = {"Float64": "f8", "Int64": "i8", "UInt64": "u8", "UInt8": "u1", "Float32": "f4", "Int32": "i4"}
-
-
-def _array(element: ElementTree.Element) -> NDArray[Any]:
-    """The numbers of a DataArray: their count in bytes, then they themselves, in base 64."""
-    text = (element.text or "").strip()
-    data = base64.b64decode(text) if text else b""
-    values = np.frombuffer(data[8:], dtype="<" + _TYPES[element.get("type", "Float64")]).copy()
-    components = int(element.get("NumberOfComponents", "1"))
-    return values.reshape(-1, components) if components > 1 else values
-
-
 def read_frame(path: str | Path) -> Cloud:
     """Reads a ``.vtu`` file as ``cograin`` writes them."""
     path = Path(path)
@@ -61,7 +50,7 @@ def read_frame(path: str | Path) -> Cloud:
         if piece is None:
             raise ResultError(f"{path}: expected an unstructured grid, found another file")
         found: dict[str, dict[str, NDArray[Any]]] = {
-            group.tag: {array.get("Name", ""): _array(array) for array in group.iter("DataArray")} for group in piece
+            group.tag: {array.get("Name", ""): array_of(array) for array in group.iter("DataArray")} for group in piece
         }
     except (OSError, ElementTree.ParseError, ValueError, KeyError) as error:
         raise ResultError(f"{path}: expected a frame of cograin: {reason(error)}") from None
@@ -114,6 +103,15 @@ class Frame:
     def cell(self) -> Cloud | None:
         """The edges of the periodic cell, a line each."""
         return self._read("cell")
+
+    def grid(self, name: str) -> Image:
+        """The fields of ``[grid.<name>]``."""
+        return read_image(self.folder / f"grid_{name}_{self.number:06}.vti")
+
+    @property
+    def grids(self) -> list[str]:
+        """Names of the grids of the run."""
+        return sorted(path.stem.removeprefix("grid_") for path in self.folder.glob("grid_*.pvd"))
 
     @property
     def edges(self) -> Matrix | None:

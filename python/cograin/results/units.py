@@ -41,6 +41,7 @@ UNITS = {
     "conjugate_stress": "Pa",
     "target_stress": "Pa",
     "volume": "m3",
+    "density": "kg/m3",
     "granular_temperature": "m2/s2",
     "temperature": "K",
     "heat_flow": "W",

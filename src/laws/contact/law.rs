@@ -510,6 +510,8 @@ impl Law {
         if !self.tangential().has_dashpot || !self.switches(row).damps_slip() {
             response.tangential_damping = 0.0;
         }
+        let own = &row[self.places.tangential..];
+        response.tangential_damping = (self.tangential().damping)(own, response.tangential_damping);
         let [normal, tangential] = self.scheme().damping_factors();
         response.normal_damping *= normal;
         response.tangential_damping *= tangential;

@@ -23,6 +23,7 @@ mod material;
 mod model;
 pub mod normal;
 mod places;
+pub mod property;
 pub mod rolling;
 mod scheme;
 mod sub_model;
@@ -37,13 +38,14 @@ pub use law::Offset;
 pub use law::{Law, OFFSET};
 pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen, Warming};
-pub use material::{Material, MaterialPair, Missing, PairProperties, Thermal};
+pub use material::{Material, MaterialPair, Missing, Thermal};
 pub use model::{
     CohesionFunctions, CohesionModel, CohesionRow, HeatFunctions, HeatModel, HeatRow, Model, ModelRow, NormalFunctions,
     NormalModel, NormalRow, RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel,
     TangentialRow,
 };
 pub use places::{CoefficientPlaces, HistoryPlaces};
+pub use property::{Properties, Property, PropertyUnit};
 pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
 pub use sub_model::{

@@ -21,7 +21,7 @@ use crate::output::results::files::Checkpoint;
 use crate::output::results::schedule::Schedule;
 use crate::output::run::remarks::remarks;
 use crate::scene::exchange::{Amount, Outside};
-use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Insertion, Kind, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Grid, Insertion, Kind, Scene, Step};
 use rules::rules;
 use serde::Serialize;
 use std::fmt;
@@ -217,6 +217,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .map(|force| format!("force {} on {}", force.name, counted(force.members.len(), "particle"))),
     );
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
+    uses.extend(scene.grids.iter().map(grid));
     uses.extend(exchange(scene));
     if scene.output.energy {
         uses.push("the algorithmic energy book".to_owned());
@@ -292,6 +293,15 @@ fn insertion(insertion: &Insertion) -> String {
         Amount::Mass(mass) => format!("{mass:?} kg"),
     };
     format!("insertion {}: {amount}, {}", insertion.name, kinds.join(", "))
+}
+
+/// A grid in one line.
+fn grid(grid: &Grid) -> String {
+    let [nx, ny, nz] = grid.shape.counts;
+    let told: Vec<_> = grid.outputs.iter().map(|output| output.name()).collect();
+    let told =
+        if told.is_empty() { "without outputs".to_owned() } else { format!("{}: computed when read", told.join(", ")) };
+    format!("grid {}: {nx} × {ny} × {nz} cells, {told}", grid.name)
 }
 
 /// A boundary in one line.

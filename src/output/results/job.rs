@@ -2,7 +2,7 @@
 
 use crate::engine::simulation::{BondRecord, ContactRecord};
 use crate::engine::state::{BoundaryState, Break, CellState, Clumps, Nodes, Particles, State};
-use crate::interface::Value;
+use crate::interface::{Field, Value};
 use std::sync::mpsc::SyncSender;
 
 /// One thing to write.
@@ -32,6 +32,8 @@ pub(crate) enum Job {
         cell: Option<Box<CellState>>,
         /// The clumps, if the scene has any.
         clumps: Option<Box<Clumps>>,
+        /// Fields on each grid that has any.
+        grids: Vec<Vec<Field>>,
     },
     /// A checkpoint.
     Checkpoint(Box<State>),

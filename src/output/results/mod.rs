@@ -10,6 +10,7 @@
 //! | `boundaries_000000.vtu`, …  | the boundaries of each frame, if the scene asks for them          |
 //! | `cell_000000.vtu`, …        | the edges of the periodic cell at each frame, if there is one     |
 //! | `clumps_000000.vtu`, …      | the clumps at each frame, if there are any                        |
+//! | `grid_<name>_000000.vti`, … | the cells of a grid at each frame                             |
 //! | `particles.pvd`, …          | the times of the frames                                           |
 //! | `checkpoint.cograin`        | the state at the last checkpoint, to continue from bit for bit    |
 //! | `summary.json`              | counts, time steps, speed, energy book, momentum, why it ended    |
@@ -26,6 +27,7 @@ pub(crate) mod files;
 pub(crate) mod folder;
 pub(crate) mod frame_files;
 pub(crate) mod frames;
+mod image;
 pub(crate) mod job;
 pub(crate) mod lock;
 pub(crate) mod replacement;
@@ -57,17 +59,30 @@ pub(crate) const UNFINISHED: &str = "part";
 /// Kinds of frames: beginning of the names of their files.
 const FRAMES: [&str; 6] = ["particles", "contacts", "bonds", "boundaries", "cell", "clumps"];
 
+/// The kind of frames that a grid of this name has.
+fn grid_frames(name: &str) -> String {
+    format!("{GRID}{name}")
+}
+
+/// What stands before the name of a grid in the names of its frames.
+const GRID: &str = "grid_";
+
+/// Ending of the names of frames of a kind, if there is such a kind.
+fn ending(kind: &str) -> Option<&'static str> {
+    let is_grid = || kind.strip_prefix(GRID).is_some_and(|name| !name.is_empty());
+    if FRAMES.contains(&kind) { Some("vtu") } else { is_grid().then_some("vti") }
+}
+
 /// File name of a frame.
 fn frame_name(kind: &str, number: usize) -> String {
-    format!("{kind}_{number:06}.vtu")
+    format!("{kind}_{number:06}.{}", ending(kind).unwrap_or_default())
 }
 
 /// The number of a frame, from its file name.
 fn frame_number(name: &str) -> Option<usize> {
-    FRAMES.iter().find_map(|kind| {
-        let digits = name.strip_prefix(kind)?.strip_prefix('_')?.strip_suffix(".vtu")?;
-        (digits.len() >= 6 && digits.bytes().all(|byte| byte.is_ascii_digit())).then(|| digits.parse().ok())?
-    })
+    let (kind, rest) = name.rsplit_once('_')?;
+    let digits = rest.strip_suffix(ending(kind)?)?.strip_suffix('.')?;
+    (digits.len() >= 6 && digits.bytes().all(|byte| byte.is_ascii_digit())).then(|| digits.parse().ok())?
 }
 
 /// File name of the times of the frames of a kind.
@@ -77,5 +92,5 @@ fn collection_name(kind: &str) -> String {
 
 /// Whether a file holds the times of frames.
 fn is_collection(name: &str) -> bool {
-    FRAMES.iter().any(|kind| name == collection_name(kind))
+    name.strip_suffix(".pvd").is_some_and(|kind| ending(kind).is_some())
 }

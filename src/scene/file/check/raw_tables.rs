@@ -2,13 +2,14 @@
 
 use super::columns;
 use super::named_tables::{Named, all, names};
+use super::properties;
 use crate::base::document::Mistake;
 use crate::base::document::messages;
 use crate::base::document::{Document, Faults, Part};
 use crate::laws::bond::keys::{BreakageChoice, Keys};
 use crate::laws::column::Column;
 use crate::laws::contact::{
-    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
+    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, Properties, Property, RollingModel, TangentialModel,
 };
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
@@ -19,6 +20,7 @@ use crate::scene::file::tables::{
     BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable,
     ParticlesTable, RunTable, TABLES, Triple,
 };
+use crate::scene::grid::GridKeys;
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
 
@@ -33,7 +35,7 @@ pub(in crate::scene::file) struct RawTables {
     /// `[material.<name>]`
     pub(super) materials: Named<MaterialTable>,
     /// `[pair.<a>.<b>]`
-    pub(super) pairs: Vec<([String; 2], PairProperties)>,
+    pub(super) pairs: Vec<([String; 2], Properties)>,
     /// `[contact.<name>]`
     pub(super) contacts: Named<Law>,
     /// `[bond.<name>]`
@@ -58,6 +60,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) heat_sources: Named<HeatSourceTable>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
+    /// `[grid.<name>]`
+    pub(super) grids: Named<GridKeys>,
     /// `[insertion.<name>]`
     pub(super) insertions: Named<InsertionKeys>,
     /// `[outlet.<name>]`
@@ -145,8 +149,8 @@ impl RawTables {
             faults.add("material", "", Mistake::Unexpected { found, expected });
             return None;
         }
-        let materials = all(document, "material", faults);
-        let pairs = pairs(document, faults);
+        let materials = properties::materials(document, &models.material_properties(), faults);
+        let pairs = pairs(document, &models.pair_properties(), faults);
         let contacts = laws(document, models, faults);
         let bonds = bonds(document, models, faults);
         let clumps = all(document, "clump", faults);
@@ -157,6 +161,7 @@ impl RawTables {
         let heat = document.read("heat", faults);
         let heat_sources = all(document, "heat_source", faults);
         let regions = all(document, "region", faults);
+        let grids = all(document, "grid", faults);
         let insertions = columns::insertions(document, &models.columns, faults);
         let outlets = all(document, "outlet", faults);
         let meters = all(document, "flow_meter", faults);
@@ -188,6 +193,7 @@ impl RawTables {
             heat,
             heat_sources,
             regions,
+            grids,
             insertions,
             outlets,
             meters,
@@ -220,12 +226,14 @@ fn unknown_tables(document: &Document, faults: &mut Faults) {
 }
 
 /// All properties of pairs; both orders of one pair must say the same.
-fn pairs(document: &Document, faults: &mut Faults) -> Vec<([String; 2], PairProperties)> {
-    let mut pairs: Vec<([String; 2], PairProperties)> = Vec::new();
+fn pairs(document: &Document, keys: &[&'static Property], faults: &mut Faults) -> Vec<([String; 2], Properties)> {
+    let mut pairs: Vec<([String; 2], Properties)> = Vec::new();
     let mut known: BTreeMap<[String; 2], usize> = BTreeMap::new();
     for a in names(document, "pair", faults) {
         for b in names(document, &format!("pair.{a}"), faults) {
-            let Some(properties) = document.read(&format!("pair.{a}.{b}"), faults) else { continue };
+            let Some(properties) = properties::of_pair(document, &format!("pair.{a}.{b}"), keys, faults) else {
+                continue;
+            };
             let mirrored = [b.clone(), a.clone()];
             match known.get(&mirrored) {
                 Some(place) if pairs[*place].1 != properties => asymmetric(document, &a, &b, faults),

@@ -16,7 +16,7 @@ pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
 
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
-use crate::laws::contact::Scheme;
+use crate::laws::contact::{Properties, Scheme};
 use crate::scene::exchange::Outside;
 use crate::scene::{Accuracy, MotionPlane, ParticleShape};
 use serde::Deserialize;
@@ -25,7 +25,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 23] = [
+pub(in crate::scene::file) const TABLES: [&str; 24] = [
     "about",
     "run",
     "gravity",
@@ -41,6 +41,7 @@ pub(in crate::scene::file) const TABLES: [&str; 23] = [
     "heat",
     "heat_source",
     "region",
+    "grid",
     "insertion",
     "outlet",
     "flow_meter",
@@ -107,6 +108,9 @@ pub(in crate::scene::file) struct MaterialTable {
     pub(in crate::scene::file) specific_heat: Option<Positive>,
     /// Young's modulus of the real bodies \[Pa\].
     pub(in crate::scene::file) real_youngs_modulus: Option<Positive>,
+    /// Properties that laws declare.
+    #[serde(skip)]
+    pub(in crate::scene::file) properties: Properties,
 }
 
 /// `[contact.<name>]`, without its sub-models.
