@@ -27,6 +27,7 @@ fn draft() -> SceneDraft {
         body: Body::default(),
         outside: Outside::default(),
         temperature: Default::default(),
+        wear: Vec::new(),
     };
     let sphere = Particle {
         id: ParticleId(7),

@@ -89,6 +89,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
         body: Body::default(),
         outside: Outside::default(),
         temperature: Default::default(),
+        wear: Vec::new(),
     }
 }
 

@@ -6,12 +6,14 @@
 mod boundaries;
 mod cell;
 mod exchange;
+mod fluid;
 mod grids;
 mod heat;
 mod probes;
 mod regions;
 mod row;
 mod scene;
+mod traces;
 
 use crate::base::quantity::BoundaryIndex;
 use crate::interface::{Causality, Variable};
@@ -19,6 +21,7 @@ use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
+use fluid::OF_FLUID;
 use grids::OF_GRIDS;
 pub use grids::{Field, fields};
 use heat::{OF_HEAT, OF_HEATED};
@@ -27,6 +30,7 @@ use regions::OF_REGIONS;
 use row::Each;
 pub(super) use row::{At, Present, ReadRate, Row};
 use scene::{OF_LOSSES, OF_SCENE};
+use traces::OF_TRACES;
 
 /// Where a variable's row stands, and which of the row's variables it is.
 #[derive(Clone, Copy)]
@@ -58,7 +62,8 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         let of_nodes = OF_NODES
             .iter()
             .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_element(node))));
-        OF_BOUNDARIES.iter().chain(&OF_HEATED).map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
+        let all = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_TRACES);
+        all.map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
     });
     let each = |rows: &'static [Row], count: usize| {
         (0..count).flat_map(move |place| rows.iter().map(move |row| (row, none.at_place(place))))
@@ -78,6 +83,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let of_scene =
         OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).chain(&OF_HEAT).map(|row| (row, none));
     let places = of_boundaries
+        .chain(each(&OF_FLUID, usize::from(scene.fluid.is_some())))
         .chain(each(&OF_REGIONS, scene.regions.len()))
         .chain(of_cells)
         .chain(exchange)
@@ -90,9 +96,15 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
 #[cfg(test)]
 pub(super) fn all() -> impl Iterator<Item = &'static Row> {
     let exchange = OF_INSERTIONS.iter().chain(&OF_OUTLETS).chain(&OF_METERS).chain(&OF_DOMAIN).chain(&OF_PROBES);
-    let of_parts =
-        OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_NODES).chain(&OF_REGIONS).chain(&OF_GRIDS).chain(exchange);
-    of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
+    let of_parts = OF_BOUNDARIES
+        .iter()
+        .chain(&OF_HEATED)
+        .chain(&OF_TRACES)
+        .chain(&OF_NODES)
+        .chain(&OF_REGIONS)
+        .chain(&OF_GRIDS)
+        .chain(exchange);
+    of_parts.chain(&OF_FLUID).chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 
 impl Source {
@@ -117,6 +129,7 @@ impl Source {
         let owner = match row.each {
             Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
             Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
+            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
             Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[at.place()].name,
             Each::Insertion => &scene.insertions[at.place()].name,

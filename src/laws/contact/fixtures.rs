@@ -230,6 +230,6 @@ pub(crate) fn with_pair<T>(properties: &Properties, with: impl FnOnce(&MaterialP
 
 /// Fails, with both values, unless they agree to `tolerance` of the expected one.
 #[track_caller]
-pub(super) fn assert_close(found: f64, expected: f64, tolerance: f64) {
+pub(in crate::laws) fn assert_close(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance * expected.abs(), "{found:e} found, {expected:e} expected");
 }

@@ -225,6 +225,11 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     if scene.output.losses {
         uses.push("the physical energy book".to_owned());
     }
+    if let Some(impacts) = scene.output.impacts {
+        let each = if impacts.events { ", and each by itself" } else { "" };
+        let bins = impacts.histogram.bins_per_decade;
+        uses.push(format!("impacts from touch to parting, counted by energy, {bins} bins a decade{each}"));
+    }
     uses
 }
 
@@ -316,7 +321,8 @@ fn boundary(boundary: &Boundary) -> String {
         0 => axes.join(", "),
         nodes => format!("its {nodes} nodes driven"),
     };
-    format!("boundary {}: {}, {motion}", boundary.name, boundary.shape.words())
+    let worn: String = boundary.wear.iter().map(|model| format!(", worn by {}", model.name())).collect();
+    format!("boundary {}: {}, {motion}{worn}", boundary.name, boundary.shape.words())
 }
 
 /// The time step, the stable one and what limits it.

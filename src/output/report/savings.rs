@@ -135,7 +135,10 @@ fn unused(scene: &Scene) -> Vec<Unused> {
     for bond in 0..scene.bonds.len() {
         unused.extend(without_breakage(scene, bond));
     }
-    for (key, is_kept) in [("energy", scene.output.energy), ("losses", scene.output.losses && !scene.heat.warms())] {
+    for (key, is_kept) in [
+        ("energy", scene.output.energy),
+        ("losses", scene.output.losses && !scene.heat.warms() && scene.output.impacts.is_none()),
+    ] {
         if !is_kept || is_read(scene) {
             continue;
         }

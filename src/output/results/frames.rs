@@ -30,6 +30,7 @@ fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
         contacts: touching,
         bonds: living,
         boundaries: moved,
+        traces: left,
         cell: lies,
         clumps: rigid,
         ..
@@ -42,7 +43,7 @@ fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
         Some(particles(scene, (&bodies, rigid.as_deref()), lies.as_deref())),
         touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, &bodies, touching)),
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
-        moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
+        moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads(), left.as_deref())),
         lies.as_deref().map(cell),
         rigid.as_deref().map(|rigid| clumps(scene, (&bodies, rigid), lies.as_deref())),
     ]

@@ -4,6 +4,8 @@
 //! |-----------------------------|-------------------------------------------------------------------|
 //! | `history.csv`               | time and the unit's outputs, a row at each history interval       |
 //! | `breakage.csv`              | in a scene with bonds: time, pair, cause and energy of each break |
+//! | `impacts.csv`               | time, bodies and losses of each impact, if the scene asks      |
+//! | `impact_histograms.csv`     | impacts by bodies and energy lost, if the scene follows them   |
 //! | `particles_000000.vtu`, …   | the particles by ascending id, a file at each frame interval      |
 //! | `contacts_000000.vtu`, …    | the contacts of each frame, if the scene asks for them            |
 //! | `bonds_000000.vtu`, …       | the bonds of each frame, in a scene with bonds                    |
@@ -28,6 +30,7 @@ pub(crate) mod folder;
 pub(crate) mod frame_files;
 pub(crate) mod frames;
 mod image;
+pub(crate) mod impacts;
 pub(crate) mod job;
 pub(crate) mod lock;
 pub(crate) mod replacement;
@@ -46,6 +49,12 @@ pub(crate) const HISTORY: &str = "history.csv";
 
 /// File of the bonds that broke.
 const BREAKAGE: &str = "breakage.csv";
+
+/// File of the impacts, one by one.
+const IMPACTS: &str = "impacts.csv";
+
+/// File of the impacts, counted by what they lost.
+pub(crate) const HISTOGRAMS: &str = "impact_histograms.csv";
 
 /// File of the state to continue from.
 pub const CHECKPOINT: &str = "checkpoint.cograin";
