@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 #: Quantities of which a node has one number.
-SCALARS = ("temperature", "heat_flow", "mean_heat_flow")
+SCALARS = ("temperature", "heat_flow", "mean_heat_flow", "heat")
 
 
 class Nodes:
@@ -91,6 +91,11 @@ class Nodes:
     def mean_heat_flow(self) -> Vector:
         """Mean heat flows of the particles into the nodes over the last communication step \\[W\\]."""
         return self.unit.get(self.names("mean_heat_flow"))
+
+    @property
+    def heat(self) -> Vector:
+        """Heat of the particles into the nodes since the start \\[J\\]."""
+        return self.unit.get(self.names("heat"))
 
     def _get(self, quantity: str) -> Matrix:
         """Values of a quantity."""

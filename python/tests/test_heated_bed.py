@@ -9,11 +9,13 @@ from cograin import (
     GaussSeidel,
     HeatCapacity,
     Interface,
+    Mapping,
     Quadratic,
     QuasiNewton,
     Secant,
     Step,
     Structure,
+    Unit,
     Verlet,
     couple,
     stiffness,
@@ -135,6 +137,41 @@ def test_exchanges_of_second_order_are_refused_in_words(opened, exchange, said, 
     plate = HeatCapacity(capacity, 0.01, start=WARM, ambient=WARM)
     with pytest.raises(ValueError, match=said):
         couple(Interface(opened(FROZEN), "floor.temperature"), plate, exchange(), step=STEP, end=END)
+
+
+#: The floor as a mesh of two triangles, whose corners move and have temperatures of their own.
+CORNERS = "v -0.01 -0.01 0\nv 0.02 -0.01 0\nv 0.02 0.02 0\nv -0.01 0.02 0\nf 1 2 3\nf 1 3 4\n"
+MESH = FALLING.replace(
+    "plane = { point = [0, 0, 0], normal = [0, 0, 1] }", 'mesh = { file = "floor.obj" }\nnodes = "driven"'
+)
+
+
+@pytest.fixture(scope="module")
+def warm_nodes(program, tmp_path_factory):
+    """A unit whose floor has temperatures at its nodes."""
+    folder = tmp_path_factory.mktemp("nodes")
+    (folder / "floor.obj").write_text(CORNERS)
+    (folder / "scene.toml").write_text(MESH)
+    path = program.export(folder / "scene.toml", folder / "bed.fmu")
+    with Unit(path) as unit:
+        if "floor.node[1].temperature" not in unit.variables:
+            pytest.skip("this program gives a mesh one temperature")
+    return path
+
+
+def test_nodes_take_the_temperatures_of_another_mesh_and_no_heat_is_lost_on_the_way(warm_nodes):
+    with Unit(warm_nodes) as grains:
+        nodes = grains.nodes("floor")
+        grid = np.array([[x, y, 0.0] for y in (-0.01, 0.005, 0.02) for x in (-0.01, 0.005, 0.02)])
+        faces = [[a, b, c] for k in (0, 1, 3, 4) for a, b, c in ((k, k + 1, k + 4), (k, k + 4, k + 3))]
+        mapping = Mapping(grid, faces, nodes.places)
+        plate = HeatCapacity(np.full(9, 0.01), start=WARM)
+        side = Interface(grains, nodes.names("temperature"), through=mapping.shares)
+        record = couple(side, plate, QuasiNewton(), step=1e-3, end=0.04)
+        gained = grains["energy.heat"]
+        assert gained > 1e-6 and abs(gained + plate.heat) <= 1e-12 * record.exchanged_work
+        assert abs(gained + nodes.heat.sum()) <= 1e-12 * record.exchanged_work
+        assert nodes.temperature == pytest.approx(mapping.temperature(plate.temperature), rel=1e-6)
 
 
 def test_a_boundary_reads_its_temperature_from_precice_and_writes_its_heat_flow(opened):
