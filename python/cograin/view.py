@@ -22,12 +22,22 @@ import numpy as np
 
 from cograin.extras import needed
 from cograin.plot.command import numbered
-from cograin.plot.values import FIELDS, are_kinds, colouring, contact_lines, ends, joined, values
+from cograin.plot.values import FIELDS, are_kinds, colouring, contact_lines, ends, joined, magnitude, values
 from cograin.plot.values import scale as scale_of
 from cograin.results import Cloud, Frame, ResultError, Run
 
 #: Directions from which a picture may be seen.
 DIRECTIONS = ("x", "y", "z", "isometric")
+#: Units of the fields of facets.
+FACETS = {
+    "normal_pressure": "Pa",
+    "traction": "Pa",
+    "force": "N",
+    "wear": "m3",
+    "wear_depth": "m",
+    "impact_energy_normal": "J",
+    "impact_energy_tangential": "J",
+}
 #: Up to so many particles are drawn as fine spheres.
 FINE = 2000
 
@@ -40,14 +50,15 @@ def scene(
     names: Mapping[int, str] | None = None,
     view: str = "isometric",
     chains: bool = False,
-    pressure: bool = False,
+    facets: str | None = None,
     scale: tuple[float, float] | None = None,
 ) -> Any:
     """A frame of a run: particles, surfaces where they are now, bonds, and the edges of a cell.
 
     ``by`` is the field that colours the particles; ``names`` are those of its numbers, such as sets. ``chains`` draws
     normal forces as tubes, the wider the larger, and particles as thin shells (needs ``[output] contacts``).
-    ``pressure`` colours facets by the pressure on them (needs ``[output] boundaries``).
+    ``facets`` is the field that colours the facets of boundaries, such as ``normal_pressure`` or ``wear_depth`` (needs
+    ``[output] boundaries``).
     """
     frames = run.frames
     if not frames:
@@ -61,7 +72,7 @@ def scene(
     particles = chosen.particles
     if len(particles):
         _particles(pyvista, plotter, chosen, particles, by, names or {}, scale, chains)
-    _surfaces(pyvista, plotter, chosen, pressure)
+    _surfaces(pyvista, plotter, chosen, facets)
     if (bonds := chosen.bonds) is not None and len(bonds) and len(particles):
         _tubes(pyvista, plotter, bonds.points.reshape(-1, 2, 3), np.median(particles["radius"]) / 4.0, "#444444")
     if (cell := chosen.cell) is not None and len(cell):
@@ -115,19 +126,23 @@ def _particles(
     plotter.add_mesh(spheres, scalars=by, **style)
 
 
-def _surfaces(pyvista: Any, plotter: Any, frame: Frame, pressure: bool) -> None:
+def _surfaces(pyvista: Any, plotter: Any, frame: Frame, by: str | None) -> None:
     """The boundaries where they are at this time."""
     surfaces = frame.boundaries
     if surfaces is None or not len(surfaces):
-        if pressure:
-            raise ResultError("pressure: expected files of boundaries; [output] boundaries = true writes them")
+        if by:
+            raise ResultError("facets: expected files of boundaries; [output] boundaries = true writes them")
         return
     faces = np.concatenate([np.concatenate([[len(cell)], cell]) for cell in surfaces.cells])
     mesh = pyvista.PolyData(surfaces.points, faces)
-    if pressure:
-        mesh.cell_data["pressure"] = surfaces["normal_pressure"]
-        bar = {"title": "pressure [Pa]", "color": "black", "fmt": "%.3g", "position_y": 0.9}
-        plotter.add_mesh(mesh, scalars="pressure", cmap="magma_r", opacity=0.5, scalar_bar_args=bar)
+    if by:
+        if by not in surfaces.cell_fields:
+            raise ResultError(f"facets: expected one of {', '.join(surfaces.cell_fields)}, found {by}")
+        mesh.cell_data[by] = magnitude(surfaces[by])
+        unit = FACETS.get(by, "1")
+        title = by if unit == "1" else f"{by} [{unit}]"
+        bar = {"title": title, "color": "black", "fmt": "%.3g", "position_y": 0.9}
+        plotter.add_mesh(mesh, scalars=by, cmap="magma_r", opacity=0.5, scalar_bar_args=bar)
     else:
         plotter.add_mesh(
             mesh, color="#8899aa", opacity=0.15, show_edges=len(surfaces.cells) < 500, edge_color="#8899aa"
@@ -215,9 +230,9 @@ def main(words: Iterable[str] | None = None) -> int:
     parser.add_argument("--time", type=float, help="the frame that is nearest to this time [s], instead")
     parser.add_argument("--view", default="isometric", choices=DIRECTIONS, help="from where (default: isometric)")
     parser.add_argument("--chains", action="store_true", help="normal forces of contacts as tubes")
-    parser.add_argument("--pressure", action="store_true", help="facets coloured by the pressure on them")
+    parser.add_argument("--facets", metavar="FIELD", help="what colours the facets: normal_pressure, wear_depth, ...")
     options = parser.parse_args(None if words is None else list(words))
-    named = {name: getattr(options, name) for name in ("by", "frame", "view", "chains", "pressure")}
+    named = {name: getattr(options, name) for name in ("by", "frame", "view", "chains", "facets")}
     named["names"] = numbered(options.names)
     try:
         run = Run(options.source)

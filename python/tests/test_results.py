@@ -1,10 +1,11 @@
 """What a run leaves comes back as numbers with their units, and as pictures."""
 
 import base64
+import re
 
 import numpy as np
 import pytest
-from conftest import DROP
+from conftest import DROP, ROOT
 
 from cograin import Interface, Oscillator, Secant, couple
 from cograin.results import ResultError, Run, joined, read_frame, read_table, unit_of
@@ -80,6 +81,17 @@ def test_names_of_every_kind_tell_their_units():
         "heap.granular_temperature": "m2/s2",
     }.items():
         assert unit_of(name) == unit, name
+
+
+def test_the_page_of_variables_has_the_units_that_their_names_tell():
+    page = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8").split("## Parameters")[0]
+    found = {}
+    for names, unit in re.findall(r"^\| (`.*?) \| ([A-Za-z0-9/.]+) \|", page, re.MULTILINE):
+        stem = re.sub(r"<[^>]*>", "a", re.match(r"`([^`]*)`", names)[1])
+        if not stem.endswith(".rate"):
+            found[stem] = unit
+    assert len(found) > 60
+    assert {name: unit_of(name) for name in found} == found
 
 
 def test_the_history_is_a_table_by_names(folder):
@@ -285,14 +297,16 @@ def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
         assert main([str(folder), "-o", str(tmp_path / "view.png"), *words]) == 0, capsys.readouterr().err
         return np.asarray(image.open(tmp_path / "view.png").convert("RGB")).reshape(-1, 3)
 
-    pictures = [drawn(*words) for words in (["--by", "set"], ["--chains"], ["--pressure", "--view", "x"])]
+    pictures = [
+        drawn(*words) for words in (["--by", "set"], ["--chains"], ["--facets", "normal_pressure", "--view", "x"])
+    ]
     for picture in pictures:
         assert (picture.min(axis=1) < 245).mean() > 0.01, "more than the background"
     assert (np.ptp(pictures[0], axis=1) > 60).any(), "sets have colours"
     assert not np.array_equal(pictures[0], pictures[1])
     assert main([str(folder), "-o", str(tmp_path / "film.gif")]) == 0
     assert image.open(tmp_path / "film.gif").n_frames == len(Run(folder).frames)
-    for words in (["--by", "colour"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
+    for words in (["--by", "colour"], ["--facets", "paint"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
         assert main([str(folder), *words]) == 2
     assert "expected one of radius" in capsys.readouterr().err
 
