@@ -1,8 +1,10 @@
 """A bed of grains as a real unit, heated through its floor by a partner: what one side gives, the other one keeps."""
 
+import re
+
 import numpy as np
 import pytest
-from test_precice import Given
+from test_precice import MODEL, Given, together
 
 from cograin import (
     CouplingStopped,
@@ -172,6 +174,53 @@ def test_nodes_take_the_temperatures_of_another_mesh_and_no_heat_is_lost_on_the_
         assert gained > 1e-6 and abs(gained + plate.heat) <= 1e-12 * record.exchanged_work
         assert abs(gained + nodes.heat.sum()) <= 1e-12 * record.exchanged_work
         assert nodes.temperature == pytest.approx(mapping.temperature(plate.temperature), rel=1e-6)
+
+
+def test_a_wall_of_another_program_agrees_by_precice_as_it_does_by_couple(opened, tmp_path):
+    text = (MODEL / "precice-config.xml").read_text().replace('max-time value="0.02"', 'max-time value="0.2"')
+    for found, instead in (
+        ("data:vector", "data:scalar"),
+        ('"Force"', '"Heat-Flow"'),
+        ('"Displacement"', '"Temperature"'),
+    ):
+        assert found in text
+        text = text.replace(found, instead)
+    text = re.sub(r'time-window-size value="[^"]*"', 'time-window-size value="0.01"', text)
+    (tmp_path / "config.xml").write_text(text)
+
+    def wall():
+        return HeatCapacity(0.01, start=WARM)
+
+    def other(participant):
+        """The wall as another program would have it."""
+        partner, time, kept = wall(), 0.0, None
+        vertices = participant.set_mesh_vertices("Plate-Mesh", np.zeros((1, 3)))
+        participant.initialize()
+        while participant.is_coupling_ongoing():
+            if participant.requires_writing_checkpoint():
+                kept = time, partner.memory()
+            length = participant.get_max_time_step_size()
+            flow = participant.read_data("Plate-Mesh", "Heat-Flow", vertices, length)
+            now = Step(time, time + length, length)
+            partner.advance(flow, partner.predict(flow, now), now)
+            participant.write_data("Plate-Mesh", "Temperature", vertices, partner.temperature)
+            participant.advance(length)
+            time = now.end
+            if participant.requires_reading_checkpoint():
+                time, memory = kept
+                partner.recall(memory)
+        participant.finalize()
+        return partner
+
+    grains = opened(FROZEN)
+    surface = Surface(grains, "floor", "Grains-Mesh", None, None, temperature="Temperature", heat="Heat-Flow")
+    table, partner, _ = together(tmp_path / "config.xml", lambda one: participate(one, [surface]), other)
+    alone, plate = opened(FROZEN), wall()
+    couple(Interface(alone, "floor.temperature"), plate, Secant(), step=0.01, end=0.2)
+    assert table.rows == 20 and partner.temperature < WARM - 1.0
+    assert partner.temperature == pytest.approx(plate.temperature, rel=1e-6)
+    # The flow of the last iteration is that which the wall took: no heat is lost, whatever is left between both.
+    assert grains["energy.heat"] == pytest.approx(-partner.stored, rel=1e-4)
 
 
 def test_a_boundary_reads_its_temperature_from_precice_and_writes_its_heat_flow(opened):
