@@ -1,6 +1,6 @@
 //! `modelDescription.xml`, from the interface alone.
 
-use crate::interface::{Causality, Interface, Quantity, Type, Variability, Variable};
+use crate::interface::{Causality, Interface, Quantity, Standard, Type, Variability, Variable};
 use crate::scene::Scene;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
@@ -253,7 +253,9 @@ fn variable(xml: &mut Xml, index: usize, variable: &Variable, scales: &Scales) -
         ])
         .with_attributes(initial)
         .write_inner_content(|xml| {
-            xml.create_element(kind.name()).with_attributes(of_type.into_iter().flatten()).write_empty()?;
+            xml.create_element(kind.name(Standard::Fmi2))
+                .with_attributes(of_type.into_iter().flatten())
+                .write_empty()?;
             Ok(())
         })?;
     Ok(())
