@@ -5,7 +5,7 @@ use crate::types::{LAST_SUCCESSFUL_TIME, PENDING_STATUS, STEP_STATUS, Status, TE
 use crate::v2::values::*;
 use crate::v2::*;
 use std::ffi::CStr;
-use std::ptr::{null, null_mut};
+use std::ptr::{self, null, null_mut};
 
 #[test]
 fn a_whole_life_is_accepted() {
