@@ -29,8 +29,8 @@ impl Source {
     /// The array of so many variables from this one on, the first of which has this name; none where components are missing or there is
     /// nothing to gather.
     pub(in crate::interface) fn array_of(&self, scene: &Scene, first: &str, count: usize) -> Option<ArrayForm> {
-        let components = self.row.each.names();
-        let numbered = first.contains("[1].");
+        let components = self.row.each.names(scene);
+        let numbered = self.row.each.element().is_some();
         let is_whole = count > 0 && count.is_multiple_of(components.len()) && (numbered || components.len() > 1);
         if !is_whole {
             return None;
@@ -38,7 +38,7 @@ impl Source {
         let stem = first.replacen("[1]", "", 1);
         let own = format!(".{}", components[0]);
         let name = if components.len() > 1 { stem.strip_suffix(&own).unwrap_or(&stem).to_owned() } else { stem };
-        let named = match components {
+        let named = match components[..] {
             [one, two, .., last] if components.len() > MOST_NAMED => format!("{one}, {two}, .., {last}"),
             _ => components.join(", "),
         };
