@@ -1,5 +1,6 @@
 """Units of FMI 3.0: valid, with the bits of the same unit of FMI 2.0, and fields that are read in one call."""
 
+import re
 import shutil
 import subprocess
 import time
@@ -99,6 +100,74 @@ def slave3(tmp_path_factory):
     yield opening
     for each in opened:
         each.close()
+
+
+#: What a type of the standard's header is in ours.
+C_TYPES = {
+    "fmi3Instance": "Component",
+    "fmi3InstanceEnvironment": "Environment",
+    "fmi3FMUState": "StateHandle",
+    "fmi3ValueReference": "Reference",
+    "fmi3String": "Text",
+    "fmi3Boolean": "Boolean",
+    "fmi3Clock": "Boolean",
+    "fmi3Binary": "Binary",
+    "fmi3Byte": "u8",
+    "fmi3Status": "Status",
+    "fmi3IntervalQualifier": "c_int",
+    "fmi3DependencyKind": "c_int",
+    "fmi3LogMessageCallback": "Option<LogFunction>",
+    "fmi3IntermediateUpdateCallback": "Option<UpdateFunction>",
+    "fmi3ClockUpdateCallback": "Option<UpdateFunction>",
+    "fmi3LockPreemptionCallback": "*const c_void",
+    "fmi3UnlockPreemptionCallback": "*const c_void",
+    "size_t": "usize",
+    "void": "",
+    "const char*": "Text",
+    **{f"fmi3Float{bits}": f"f{bits}" for bits in (32, 64)},
+    **{f"fmi3Int{bits}": f"i{bits}" for bits in (8, 16, 32, 64)},
+    **{f"fmi3UInt{bits}": f"u{bits}" for bits in (8, 16, 32, 64)},
+}
+
+
+def in_rust(declared):
+    """A parameter of the header as a type of ours."""
+    constant, kind, pointer, _, array = re.fullmatch(r"(const )?(\w+) *(\*?) *(\w*)(\[\])?", declared).groups()
+    return (("*const " if constant else "*mut ") if pointer or array else "") + C_TYPES[kind]
+
+
+def standard_signatures():
+    """Parameters and result of each function of the header that fmpy brings along."""
+    header = (Path(fmpy.__file__).parent / "c-code" / "fmi3FunctionTypes.h").read_text()
+    found = {}
+    for result, name, inner in re.findall(r"typedef ([\w ]+\*?)\s*(fmi3\w+)TYPE\s*\(([^)]*)\)", header):
+        parameters = [" ".join(parameter.split()) for parameter in inner.split(",")]
+        found[name] = ([in_rust(it) for it in parameters if it != "void"], C_TYPES[result.strip()])
+    return found
+
+
+def our_signatures():
+    """Parameters and result of each function in our sources."""
+    types = lambda text: [it.split(": ")[-1].strip() for it in text.split(",") if it.strip()]
+    found = {}
+    for name in ("lib.rs", "v3/mod.rs", "v3/values.rs", "v3/absent.rs"):
+        text = (ROOT / "fmu" / "src" / name).read_text().replace("$crate::types::", "").replace("$crate::v3::", "")
+        text = text.replace("::core::option::", "")
+        for function, inner, result in re.findall(r'extern "C" fn (fmi3\w+)\(([^{]*?)\)(?: -> (\w+))? {', text):
+            found[function] = (types(inner), result)
+        for function, inner in re.findall(r"^        (fmi3\w+)\(([^)]*)\);?$", text, re.MULTILINE):
+            found[function] = (["Component", *types(inner)], "Status")
+        for element, get, set_ in re.findall(r'^    "\w+" (\w+): (fmi3\w+) (fmi3\w+);', text, re.MULTILINE):
+            for function, pointer in ((get, "*mut"), (set_, "*const")):
+                given = ["Component", "*const Reference", "usize", f"{pointer} {element}", "usize"]
+                found[function] = (given, "Status")
+    return found
+
+
+def test_every_function_has_the_parameters_and_the_result_of_the_standard():
+    standard, ours = standard_signatures(), our_signatures()
+    assert len(standard) == 75 and ours.keys() == standard.keys()
+    assert {name: ours[name] for name in standard} == standard
 
 
 def valid_terminals(folder):
