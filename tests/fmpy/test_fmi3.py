@@ -330,6 +330,32 @@ def test_a_mesh_is_three_fields_and_a_short_description(cograin, slave, slave3, 
     assert np.abs(nodes.force).max() > 0.0
 
 
+GRID = """
+[grid.field]
+box = [[-0.02, -0.02, 0.0], [0.02, 0.02, 0.04]]
+counts = [20, 20, 20]
+outputs = ["porosity", "velocity", "stress", "count"]
+"""
+
+
+def test_a_grid_of_8000_cells_is_four_fields_in_a_short_description(cograin, slave3, tmp_path):
+    scene = skin(tmp_path, 3)
+    scene.write_text(scene.read_text() + GRID)
+    cograin("export", scene, "--fmi", "3", "-o", tmp_path / "grid.fmu")
+    begun = time.perf_counter()
+    description = fmpy.read_model_description(str(tmp_path / "grid.fmu"), validate=True)
+    assert time.perf_counter() - begun < 1.0, "an importer reads it at once"
+    shapes = {variable.name: variable.shape for variable in description.modelVariables}
+    expected = {"porosity": (8000,), "velocity": (8000, 3), "stress": (8000, 6), "count": (8000,)}
+    assert {name: shapes[f"field.cell.{name}"] for name in expected} == expected
+    fields = slave3(tmp_path / "grid.fmu")
+    assert (Path(fields.slave.unzipDirectory) / "modelDescription.xml").stat().st_size < 30_000
+    porosity = np.array(fields.get("field.cell.porosity"))
+    grain = 4.0 / 3.0 * np.pi * 0.002**3
+    assert (1.0 - porosity).sum() * 0.002**3 == pytest.approx(grain, rel=1e-9)
+    assert sum(fields.slave.getInt32(fields.references(["field.cell.count"]), 8000)) == 1
+
+
 def test_a_host_in_c_gets_the_same_digits(unit, unit3, slave, tmp_path):
     compiler = shutil.which("cc")
     assert compiler, "a C compiler is needed to try a host in C"
