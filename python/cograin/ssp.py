@@ -26,11 +26,11 @@ def save_ssp(
     end: float | None = None,
     overwrite: bool = False,
 ) -> Path:
-    """Writes units, by their names in the system, with their connections as ``path``, a file of SSP 1.0. Gives the path.
+    """Writes units, by their names in the system, with their connections as ``path``, a file of SSP 1.0; gives it.
 
     A connection joins an output with an input: ``("bed.floor.force.z", "table.load")``. Inputs that nothing is
-    connected to are inputs of the system, under the same names. ``parameters`` are values by such names, ``end`` is
-    where the default experiment ends \\[s\\]. SSP 1.0 has no arrays: units are those of FMI 2.0.
+    connected to are inputs of the system, as ``bed:floor.displacement.z``. ``parameters`` are values by names of
+    variables, ``end`` is where the default experiment ends \\[s\\]. SSP 1.0 has no arrays: units are those of FMI 2.0.
     """
     path = Path(path)
     if path.exists() and not overwrite:
@@ -49,8 +49,8 @@ def save_ssp(
             _add(archive, "SystemStructure.ssd", _text(described))
             if values:
                 _add(archive, "parameters.ssv", _text(system.values(path.stem, values)))
-            for name, unit in units.items():
-                _add(archive, f"resources/{name}.fmu", Path(unit).read_bytes(), ZIP_STORED)
+            for name, file in units.items():
+                _add(archive, f"resources/{name}.fmu", Path(file).read_bytes(), ZIP_STORED)
         part.replace(path)
     finally:
         part.unlink(missing_ok=True)
@@ -79,7 +79,8 @@ def _text(element: ElementTree.Element) -> bytes:
     for prefix, place in (("ssd", _DESCRIPTION), ("ssc", _COMMON), ("ssv", _VALUES)):
         ElementTree.register_namespace(prefix, place[1:-1])
     ElementTree.indent(element)
-    return ElementTree.tostring(element, encoding="utf-8", xml_declaration=True)
+    text: bytes = ElementTree.tostring(element, encoding="utf-8", xml_declaration=True)
+    return text
 
 
 class _System:
@@ -95,7 +96,9 @@ class _System:
         """Unit and variable of a name, where the variable is of one of these kinds."""
         unit, _, variable = name.partition(".")
         if unit not in self.units:
-            raise ValueError(f"{name}: expected a unit of the system, found {unit!r}; there are {', '.join(self.units)}")
+            raise ValueError(
+                f"{name}: expected a unit of the system, found {unit!r}; there are {', '.join(self.units)}"
+            )
         found = self.variables.get((unit, variable))
         if found is None or found.causality not in causalities:
             what = "no such variable" if found is None else f"one that is of kind {found.causality}"
@@ -113,7 +116,7 @@ class _System:
         if free:
             connectors = ElementTree.SubElement(system, f"{_DESCRIPTION}Connectors")
             for unit, variable in free:
-                self._connector(connectors, f"{unit}.{variable}", (unit, variable))
+                self._connector(connectors, f"{unit}:{variable}", (unit, variable))
         if has_values:
             bindings = ElementTree.SubElement(system, f"{_DESCRIPTION}ParameterBindings")
             ElementTree.SubElement(bindings, f"{_DESCRIPTION}ParameterBinding", source="parameters.ssv")
@@ -122,7 +125,7 @@ class _System:
             self._component(elements, unit)
         connections = ElementTree.Element(f"{_DESCRIPTION}Connections")
         for unit, variable in free:
-            given = {"startConnector": f"{unit}.{variable}", "endElement": unit, "endConnector": variable}
+            given = {"startConnector": f"{unit}:{variable}", "endElement": unit, "endConnector": variable}
             ElementTree.SubElement(connections, f"{_DESCRIPTION}Connection", given)
         for (start, output), (to, variable) in joined:
             given = {"startElement": start, "startConnector": output, "endElement": to, "endConnector": variable}
@@ -159,7 +162,9 @@ class _System:
         for name, unit in sorted(known.items()):
             element = ElementTree.SubElement(definitions, f"{_COMMON}Unit", name=name)
             base = {it: getattr(unit.baseUnit, it) for it in _BASE} if unit.baseUnit else {}
-            ElementTree.SubElement(element, f"{_COMMON}BaseUnit", {it: str(power) for it, power in base.items() if power})
+            ElementTree.SubElement(
+                element, f"{_COMMON}BaseUnit", {it: str(power) for it, power in base.items() if power}
+            )
 
     def values(self, name: str, values: dict[str, tuple[tuple[str, str], Value]]) -> ElementTree.Element:
         """``parameters.ssv``"""

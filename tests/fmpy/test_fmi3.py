@@ -319,7 +319,7 @@ def test_a_mesh_is_three_fields_and_a_short_description(cograin, slave, slave3, 
     cograin("export", skin(tmp_path, 7), "-o", old)
     cograin("export", skin(tmp_path, 7), "--fmi", "3", "-o", new, "--overwrite")
     fields, scalars = slave3(new), slave(old)
-    nodes = scalars.unit.nodes("skin")
+    nodes, pressed = scalars.unit.nodes("skin"), 0.0
     for step in range(1, 6):
         moved = 1e-6 * step * np.cos(np.arange(147.0)).reshape(49, 3)
         nodes.displacement = moved
@@ -327,7 +327,8 @@ def test_a_mesh_is_three_fields_and_a_short_description(cograin, slave, slave3, 
         scalars.unit.step(2e-4)
         fields.slave.doStep(2e-4 * (step - 1), 2e-4)
         assert fields.get("skin.node.force") == nodes.force.ravel().tolist()
-    assert np.abs(nodes.force).max() > 0.0
+        pressed = max(pressed, np.abs(nodes.force).max())
+    assert pressed > 0.0
 
 
 GRID = """

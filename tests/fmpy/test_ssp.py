@@ -51,7 +51,7 @@ def test_fmpy_validates_and_simulates_a_system_with_the_bits_of_its_units(unit, 
 def test_free_inputs_are_inputs_of_the_system(unit, tmp_path):
     path = save_ssp(tmp_path / "shaft.ssp", {"shaft": unit("piston")})
     found = simulate_ssp(
-        str(path), stop_time=0.0105, step_size=STEP, input={"shaft.piston.displacement.z": lambda time: 1e-3 * time}
+        str(path), stop_time=0.0105, step_size=STEP, input={"shaft:piston.displacement.z": lambda time: 1e-3 * time}
     )
     assert len(found) == 11 and found["shaft.piston.work"][-1] != 0.0
 
