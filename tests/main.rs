@@ -25,6 +25,7 @@ mod every_law;
 mod every_surface;
 mod exchange;
 mod floors;
+mod fluid;
 mod foreseen_step;
 mod forged_states;
 mod free_groups;

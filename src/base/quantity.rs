@@ -45,6 +45,8 @@ checked!(/// A number of 1 or above.
     AtLeastOne, value => value >= 1.0, "a number of 1 or above");
 checked!(/// A number above 0 and at most 1.
     Restitution, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
+checked!(/// Part of space that is not filled: above 0 and at most 1.
+    Porosity, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
 checked!(/// A number from 0 to 1.
     Fraction, value => (0.0..=1.0).contains(&value), "a number from 0 to 1");
 checked!(/// A number above 0 and below 1: how much of the stable step an automatic time step takes.

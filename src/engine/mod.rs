@@ -9,6 +9,7 @@ pub(crate) mod columns;
 pub(crate) mod contacts;
 pub(crate) mod energy;
 pub(crate) mod flow;
+pub(crate) mod fluid;
 pub(crate) mod integration;
 pub(crate) mod neighbours;
 pub(crate) mod run_error;

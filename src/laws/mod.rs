@@ -3,6 +3,7 @@
 pub mod bond;
 pub mod column;
 pub mod contact;
+pub mod drag;
 mod kept;
 pub mod motion;
 pub mod region;

@@ -14,6 +14,7 @@ mod column;
 mod damping;
 pub mod exchange;
 pub(crate) mod file;
+mod fluid;
 mod governing;
 mod grid;
 pub(crate) mod heat;
@@ -45,6 +46,7 @@ pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
+pub use fluid::{Fluid, FluidVelocity};
 pub use governing::GoverningLaws;
 pub use grid::{Grid, GridOutput};
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
@@ -125,6 +127,8 @@ pub struct SceneDraft {
     pub heat: HeatSettings,
     /// What warms or cools particles, in the order of the file.
     pub heat_sources: Vec<HeatSource>,
+    /// The fluid around the particles, if there is one.
+    pub fluid: Option<Fluid>,
     /// Parts of space of which stress, porosity and motion are outputs, in the order of the file.
     pub regions: Vec<Region>,
     /// Boxes divided into cells, each of which is looked at, in the order of the file.

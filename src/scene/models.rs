@@ -1,4 +1,4 @@
-//! The sub-models, rules of breakage and shapes that scenes may name.
+//! The sub-models, rules of breakage, shapes and drag laws that scenes may name.
 
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
 use crate::laws::column::{Column, TEMPERATURE};
@@ -6,10 +6,11 @@ use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel,
     NormalRow, Property, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow, property,
 };
+use crate::laws::drag::{self, Drag, DragRow};
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
 use crate::laws::wear::{self, Wear, WearRow};
 
-/// The sub-models, rules of breakage and shapes that scenes may name: those of the program, and those that another crate adds.
+/// The sub-models, rules of breakage, shapes and drag laws that scenes may name: those of the program, and those that another crate adds.
 ///
 /// ```
 /// use cograin::contact::normal::hertz::Hertz;
@@ -35,6 +36,8 @@ pub struct Models {
     pub(crate) breakage: Vec<&'static BreakageRow>,
     /// Shapes of boundaries.
     pub(crate) shapes: Vec<&'static ShapeRow>,
+    /// Drag laws of fluids.
+    pub(crate) drag: Vec<&'static DragRow>,
     /// Models of wear.
     pub(crate) wear: Vec<&'static WearRow>,
     /// Columns of particles that scenes may ask for.
@@ -58,6 +61,7 @@ impl Models {
             heat: contact::heat::STANDARD.to_vec(),
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
+            drag: drag::STANDARD.to_vec(),
             wear: wear::STANDARD.to_vec(),
             columns: vec![&TEMPERATURE],
         }
@@ -102,6 +106,12 @@ impl Models {
     /// The same and a shape of boundaries, in place of one of the same key.
     pub fn with_shape<K: ShapeKeys>(mut self) -> Self {
         put(&mut self.shapes, ShapeRow::of::<K>(), |row| row.key);
+        self
+    }
+
+    /// The same and a drag law, in place of one of the same name.
+    pub fn with_drag<D: Drag>(mut self) -> Self {
+        put(&mut self.drag, DragRow::of::<D>(), DragRow::name);
         self
     }
 
@@ -185,6 +195,11 @@ impl Models {
     /// Names of the cohesion sub-models.
     pub fn cohesion_names(&self) -> Vec<&'static str> {
         names(&self.cohesion)
+    }
+
+    /// Names of the drag laws.
+    pub fn drag_names(&self) -> Vec<&'static str> {
+        self.drag.iter().map(|row| row.name()).collect()
     }
 
     /// Names of the heat sub-models.

@@ -13,6 +13,7 @@ use crate::engine::contacts::followed::FollowedPairs;
 use crate::engine::contacts::particles::ContactPass;
 use crate::engine::contacts::surfaces::SurfacePass;
 use crate::engine::flow;
+use crate::engine::fluid;
 use crate::engine::neighbours;
 use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Deepest, Foresight, Ledger, Losses, Neighbours, Nodes, Pace,
@@ -51,6 +52,7 @@ pub(super) fn state(scene: &Scene) -> State {
         cell: Cell::begun(scene),
         clumps: ClumpBodies::begun(scene),
         heat: transfer::begun(scene),
+        fluid: fluid::begun(scene),
         traces: traces::begun(scene),
         particles,
     }

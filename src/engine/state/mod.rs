@@ -12,6 +12,7 @@ pub mod clumps;
 pub mod contacts;
 pub mod deepest;
 pub mod exchange;
+pub mod fluid;
 pub mod foresight;
 pub mod heat;
 mod history;
@@ -36,6 +37,7 @@ pub use clumps::{ClumpRows, Clumps};
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use deepest::{Deepest, Named};
 pub use exchange::Exchange;
+pub use fluid::FluidState;
 pub use foresight::Foresight;
 pub use heat::Heat;
 pub use history::History;
@@ -103,6 +105,8 @@ pub struct State {
     pub cell: Option<CellState>,
     /// Temperatures, where heat flows.
     pub heat: Option<Heat>,
+    /// The fluid around the particles, where the scene has one.
+    pub fluid: Option<FluidState>,
     /// What contacts leave behind, where the scene asks for it.
     pub traces: Option<Traces>,
 }
@@ -131,6 +135,7 @@ clone_in_place!(State {
     exchange,
     cell,
     heat,
+    fluid,
     traces
 });
 
@@ -222,7 +227,8 @@ impl State {
         let exchanged = net.flat_map(|net| [net.kinetic, net.elastic, net.potential, net.turnover]);
         let traces = self.traces.iter().flat_map(Traces::sums);
         let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(traces).chain(self.works());
-        all.map(f64::abs).sum::<f64>().is_finite()
+        let fluid = self.fluid.iter().map(|fluid| fluid.work);
+        all.chain(fluid).map(f64::abs).sum::<f64>().is_finite()
     }
 
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
@@ -246,6 +252,9 @@ impl State {
         }
         if let Some(heat) = &mut self.heat {
             heat.begin_counting();
+        }
+        if let Some(fluid) = &mut self.fluid {
+            fluid.begin_counting();
         }
         if let Some(traces) = &mut self.traces {
             traces.begin_counting();

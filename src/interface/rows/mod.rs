@@ -6,6 +6,7 @@
 mod boundaries;
 mod cell;
 mod exchange;
+mod fluid;
 mod grids;
 mod heat;
 mod probes;
@@ -20,6 +21,7 @@ use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
+use fluid::OF_FLUID;
 use grids::OF_GRIDS;
 pub use grids::{Field, fields};
 use heat::{OF_HEAT, OF_HEATED};
@@ -81,6 +83,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let of_scene =
         OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).chain(&OF_HEAT).map(|row| (row, none));
     let places = of_boundaries
+        .chain(each(&OF_FLUID, usize::from(scene.fluid.is_some())))
         .chain(each(&OF_REGIONS, scene.regions.len()))
         .chain(of_cells)
         .chain(exchange)
@@ -101,7 +104,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Row> {
         .chain(&OF_REGIONS)
         .chain(&OF_GRIDS)
         .chain(exchange);
-    of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
+    of_parts.chain(&OF_FLUID).chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 
 impl Source {
@@ -126,6 +129,7 @@ impl Source {
         let owner = match row.each {
             Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
             Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
+            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
             Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[at.place()].name,
             Each::Insertion => &scene.insertions[at.place()].name,

@@ -33,6 +33,10 @@ pub(in crate::interface) enum Each {
     Axis,
     /// One for each node that moves by itself and axis: `<boundary>.node[<number>].<name>.<axis>`.
     Node,
+    /// One for the fluid: `<fluid>.<name>`.
+    Fluid,
+    /// One for the fluid and each axis: `<fluid>.<name>.<axis>`.
+    FluidAxis,
     /// One for each insertion: `<insertion>.<name>`.
     Insertion,
     /// One for each outlet: `<outlet>.<name>`.
@@ -86,12 +90,13 @@ impl Each {
     /// The same where it is the same in every scene.
     fn fixed_names(self) -> &'static [&'static str] {
         match self {
-            Self::Axis | Self::Node | Self::RegionAxis | Self::CellAxis | Self::ProbeAxis => &AXES,
+            Self::Axis | Self::Node | Self::FluidAxis | Self::RegionAxis | Self::CellAxis | Self::ProbeAxis => &AXES,
             Self::Component | Self::CellComponent | Self::Strain => &STRAINS,
             Self::Tangent => &TANGENTS,
             Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary
+            | Self::Fluid
             | Self::Region
             | Self::Cell
             | Self::CellSet

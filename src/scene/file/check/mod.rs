@@ -11,6 +11,7 @@ mod contacts;
 mod damping;
 mod exchange;
 mod finding;
+mod fluid;
 mod heat;
 mod motion;
 mod named_tables;
@@ -65,6 +66,7 @@ pub(super) fn scene(
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
     let heat_sources = heat::sources(&written, &born, &mut faults);
+    let fluid = fluid::fluid(&written, source, &mut faults);
     let regions = regions(&written, source, &mut faults);
     let grids = written.grids.iter().map(|(name, keys)| Grid::of(name, keys)).collect();
     let exchange::Parts { insertions, outlets, meters } =
@@ -88,6 +90,7 @@ pub(super) fn scene(
         forces,
         heat: written.heat.settings(),
         heat_sources,
+        fluid,
         regions,
         grids,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
@@ -162,7 +165,8 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let others = others
         .chain(column::objections(draft))
         .chain(crate::scene::heat::objections(draft))
-        .chain(grid::objections(draft));
+        .chain(grid::objections(draft))
+        .chain(crate::scene::fluid::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);

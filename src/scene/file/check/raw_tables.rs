@@ -11,6 +11,7 @@ use crate::laws::column::Column;
 use crate::laws::contact::{
     CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, Properties, Property, RollingModel, TangentialModel,
 };
+use crate::laws::drag::DragModel;
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
 use crate::laws::wear::WearModel;
@@ -18,8 +19,8 @@ use crate::scene::cell::CellKeys;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
-    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable,
-    ParticlesTable, RunTable, TABLES, Triple,
+    BoundaryTable, ContactTable, DampingTable, DomainTable, FluidTable, ForceTable, HeatSourceTable, HeatTable,
+    MaterialTable, ParticlesTable, RunTable, TABLES, Triple,
 };
 use crate::scene::grid::GridKeys;
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
@@ -59,6 +60,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) heat: HeatTable,
     /// `[heat_source.<name>]`
     pub(super) heat_sources: Named<HeatSourceTable>,
+    /// `[fluid.<name>]`, with its drag law
+    pub(super) fluid: Option<(String, FluidTable, DragModel)>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
     /// `[grid.<name>]`
@@ -120,14 +123,16 @@ pub(in crate::scene::file) fn files(document: &Document, models: &Models) -> Vec
             }
         }
     }
-    for name in document.names("boundary") {
-        let table = format!("boundary.{name}");
-        for axis in AxisMotion::WORDS {
-            // A rotation is a quoted key.
-            let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };
-            let law = format!("{table}.motion.prescribed.{quoted}.table");
-            if let Some(file) = document.text(&law).or_else(|| document.text(&format!("{law}.file"))) {
-                files.push((table.clone(), "motion.prescribed".to_owned(), file.to_owned()));
+    for (kind, key) in [("boundary", "motion.prescribed"), ("fluid", "velocity.prescribed")] {
+        for name in document.names(kind) {
+            let table = format!("{kind}.{name}");
+            for axis in AxisMotion::WORDS {
+                // A rotation is a quoted key.
+                let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };
+                let law = format!("{table}.{key}.{quoted}.table");
+                if let Some(file) = document.text(&law).or_else(|| document.text(&format!("{law}.file"))) {
+                    files.push((table.clone(), key.to_owned(), file.to_owned()));
+                }
             }
         }
     }
@@ -161,6 +166,7 @@ impl RawTables {
         let forces = all(document, "force", faults);
         let heat = document.read("heat", faults);
         let heat_sources = all(document, "heat_source", faults);
+        let fluid = fluid(document, models, faults);
         let regions = all(document, "region", faults);
         let grids = all(document, "grid", faults);
         let insertions = columns::insertions(document, &models.columns, faults);
@@ -193,6 +199,7 @@ impl RawTables {
             forces,
             heat,
             heat_sources,
+            fluid,
             regions,
             grids,
             insertions,
@@ -344,6 +351,43 @@ fn boundaries(document: &Document, models: &Models, faults: &mut Faults) -> Name
         boundaries.extend(table.map(|table| (name, BoundaryTable { shapes, wear, ..table })));
     }
     boundaries
+}
+
+/// The fluid, if there is one.
+fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<(String, FluidTable, DragModel)> {
+    let names = names(document, "fluid", faults);
+    if names.len() > 1 {
+        let (found, expected) =
+            (names.join(" and "), "one fluid: each fills all space, so two would overlap".to_owned());
+        faults.add(&format!("fluid.{}", names[1]), "", Mistake::Unexpected { found, expected });
+        return None;
+    }
+    let name = names.into_iter().next()?;
+    let path = format!("fluid.{name}");
+    let table = document.read(&path, faults);
+    let laws = format!("{path}.drag");
+    if !document.is_table(&laws) {
+        let expected = format!("a table [{laws}.<law>]");
+        let mistake = match document.has(&laws) {
+            true => Mistake::Unexpected { found: document.written(&laws).to_owned(), expected },
+            false => Mistake::Missing { expected },
+        };
+        faults.add(&path, "drag", mistake);
+        return None;
+    }
+    let chosen = document.names(&laws);
+    let [law] = &chosen[..] else {
+        let found = if chosen.is_empty() { "none".to_owned() } else { chosen.join(" and ") };
+        faults.add(&laws, "", Mistake::Unexpected { found, expected: "one drag law".to_owned() });
+        return None;
+    };
+    let Some(row) = models.drag.iter().find(|row| row.name() == law) else {
+        let known = models.drag_names().into_iter().map(str::to_owned).collect();
+        faults.add(&format!("{laws}.{law}"), "", Mistake::UnknownModel { found: law.clone(), kind: "drag", known });
+        return None;
+    };
+    let drag = row.read(document, &laws, faults)?;
+    Some((name, table?, drag))
 }
 
 /// The models of wear of a boundary.

@@ -3,11 +3,11 @@
 
 use super::named_tables::is_name;
 use crate::base::document::{Faults, Mistake};
-use crate::base::quantity::SetIndex;
+use crate::base::quantity::{Porosity, SetIndex};
 use crate::laws::bond::creation::ListedPairs;
 use crate::laws::contact::Properties;
 use crate::scene::file::tables::is_positive_definite;
-use crate::scene::{AxisMotion, Boundary, ColumnStart, Grid, Insertion, Outlet, OutletPlace, SceneDraft, Step};
+use crate::scene::{AxisMotion, Boundary, ColumnStart, Fluid, Grid, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use std::collections::BTreeSet;
 
 /// Reports every value that its key does not take.
@@ -27,6 +27,10 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     for it in &draft.grids {
         at.name = format!("grid.{}", it.name);
         grid(it, &mut at);
+    }
+    if let Some(it) = &draft.fluid {
+        at.name = format!("fluid.{}", it.name);
+        fluid(it, &mut at);
     }
     for insertion in &draft.insertions {
         at.name = format!("insertion.{}", insertion.name);
@@ -154,6 +158,16 @@ fn names(draft: &SceneDraft, at: &mut Table) {
             }
         }
     }
+}
+
+/// `[fluid.<name>]`
+fn fluid(fluid: &Fluid, at: &mut Table) {
+    at.positive("density", fluid.density);
+    at.positive("viscosity", fluid.viscosity);
+    if let Some(porosity) = fluid.porosity.filter(|it| Porosity::new(*it).is_none()) {
+        at.wrong("porosity", format!("{porosity:?}"), "a number above 0 and at most 1");
+    }
+    at.finite("velocity", &fluid.velocity.at_start());
 }
 
 /// `[run]`, `gravity` and `[domain]`

@@ -2,6 +2,7 @@
 
 mod body;
 mod boundary;
+mod fluid;
 mod heat;
 mod particles;
 mod values;
@@ -11,6 +12,7 @@ pub(super) use crate::laws::surface::Selection;
 pub(in crate::scene) use body::Inertia;
 pub(super) use body::{Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
+pub(super) use fluid::{FluidTable, VelocityKey};
 pub(super) use heat::{HeatSourceTable, HeatTable, TemperatureKey};
 pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
@@ -25,7 +27,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 24] = [
+pub(in crate::scene::file) const TABLES: [&str; 25] = [
     "about",
     "run",
     "gravity",
@@ -40,6 +42,7 @@ pub(in crate::scene::file) const TABLES: [&str; 24] = [
     "force",
     "heat",
     "heat_source",
+    "fluid",
     "region",
     "grid",
     "insertion",
