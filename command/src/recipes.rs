@@ -67,6 +67,8 @@ recipes! {
         "scene.toml" "../recipes/clumps/scene.toml";
     "tablets" "tablets of seven spheres in a drum that turns":
         "scene.toml" "../recipes/tablets/scene.toml";
+    "mill" "a ball mill: impacts by energy, wear of drum and lifters":
+        "scene.toml" "../recipes/mill/scene.toml";
 }
 
 /// `cograin new`

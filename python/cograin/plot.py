@@ -193,6 +193,17 @@ EDGES: dict[str, Any] = {"edgecolors": "#999999", "linewidths": 0.4}
 #: Units of the fields of particles.
 FIELDS = {"velocity": "m/s", "angular_velocity": "rad/s", "force": "N", "torque": "N.m", "mass": "kg", "radius": "m"}
 
+#: Units of the fields of facets.
+FACET_FIELDS = {
+    "force": "N",
+    "traction": "Pa",
+    "normal_pressure": "Pa",
+    "wear": "m3",
+    "wear_depth": "m",
+    "impact_energy_normal": "J",
+    "impact_energy_tangential": "J",
+}
+
 #: Units of the fields of grids.
 GRID_FIELDS = {
     "density": "kg/m3",
@@ -269,6 +280,41 @@ def section(frame: Frame, grid: str, by: str | None = None, view: str = "y", at:
     told = {"stress": "mean stress", "velocity": "speed"}.get(by, by.replace("_", " "))
     figure.colorbar(drawn, ax=panel, label=f"{told} [{unit}]", shrink=0.8)
     panel.set_title(f"{grid}, t = {frame.time:.4g} s", fontsize=10)
+    return figure
+
+
+def facets(frame: Frame, by: str = "wear_depth", view: str = "z", boundaries: Sequence[int] | None = None) -> Any:
+    """The facets of the boundaries as seen along an axis, coloured by a field: ``wear_depth``, ``force`` and so on.
+
+    ``boundaries`` chooses some, by their numbers in the scene from 0; by default all.
+    """
+    surfaces = frame.boundaries
+    if surfaces is None or not surfaces.cells:
+        raise ResultError("facets: expected files of boundaries; [output] boundaries = true writes them")
+    if by not in surfaces.cell_fields:
+        raise ResultError(f"facets: expected one of {', '.join(surfaces.cell_fields)}, found {by}")
+    from matplotlib.collections import PolyCollection
+
+    kept = (
+        np.isin(surfaces["boundary"], list(boundaries))
+        if boundaries is not None
+        else np.ones(len(surfaces.cells), bool)
+    )
+    figure, (panel,) = _figure(height=5.5)
+    corners = [surfaces.points[cell] for cell, keep in zip(surfaces.cells, kept, strict=True) if keep]
+    if not corners:
+        return figure
+    points = np.concatenate(corners)
+    _view(panel, points, np.zeros(len(points)), view)
+    across, up, depth, sign = VIEWS[view]
+    order = np.argsort([-sign * corner[:, depth].mean() for corner in corners], kind="stable")
+    values = _magnitude(surfaces[by])[kept]
+    factor, unit = _prefixed(values, FACET_FIELDS.get(by, "1"))
+    drawn = PolyCollection([corners[place][:, [across, up]] for place in order], cmap="viridis", **EDGES)
+    drawn.set_array(factor * values[order])
+    panel.add_collection(drawn)
+    figure.colorbar(drawn, ax=panel, label=by.replace("_", " ") + (f" [{unit}]" if unit != "1" else ""))
+    panel.set_title(f"t = {frame.time:.6g} s", fontsize=10)
     return figure
 
 

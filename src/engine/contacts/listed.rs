@@ -103,10 +103,9 @@ pub(crate) fn records(list: &impl ContactEntries, state: &State, step: f64, tell
     }
 }
 
-/// Tells the first body and the overlap \[m\] of each entry that touches, suppressed or not.
-pub(crate) fn touched(list: &impl ContactEntries, state: &State, tell: &mut dyn FnMut(u32, f64)) {
-    for (entry, _) in list.kept(state).flags.iter().enumerate().filter(|(_, flags)| **flags & (TOUCHING | BONDED) != 0)
-    {
+/// Tells the first body and the overlap \[m\] of each entry that touches and has one of these flags.
+pub(crate) fn touched(list: &impl ContactEntries, (state, flags): (&State, u8), tell: &mut dyn FnMut(u32, f64)) {
+    for (entry, _) in list.kept(state).flags.iter().enumerate().filter(|(_, own)| **own & flags != 0) {
         if let Some(met) = list.meet(state, entry, 0.0, Motion::Present) {
             tell(list.bodies(state, entry).0, met.contact.overlap);
         }

@@ -110,8 +110,8 @@ pub(crate) trait Telling {
         0.0
     }
 
-    /// Tells each contact with a surface, as it stands now.
-    fn touched(&self, _state: &State, _tell: &mut dyn FnMut(SurfaceTouch)) {}
+    /// Tells each contact with a surface that has one of these flags, as it stands now.
+    fn touched(&self, _chosen: (&State, u8), _tell: &mut dyn FnMut(SurfaceTouch)) {}
 
     /// Tells each living bond and what it carries. Changes nothing.
     fn bonds(&self, _state: &State, _tell: &mut dyn FnMut(BondRecord)) {}

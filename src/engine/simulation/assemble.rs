@@ -172,7 +172,7 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
         index,
         kept_rows: scene.kept_rows(index).len(),
         table: CoefficientTable::of(law, scene),
-        law: BatchLaw::of(scene.law(index)),
+        law: BatchLaw::of_scene(scene, index),
         lost: Mutex::default(),
         followed: FollowedPairs::of(scene),
     }

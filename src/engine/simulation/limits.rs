@@ -218,6 +218,9 @@ impl Simulation {
     /// Whether what was foreseen has been used up: by motion, by speed, by bonds. Boundaries are this fast \[m/s\], the next
     /// time step has this length \[s\].
     pub(super) fn is_due(&self, boundaries: f64, step: f64) -> bool {
+        if self.scene.heat.frozen {
+            return false;
+        }
         let (foresight, clock) = (&self.state.foresight, &self.state.clock);
         let speed = clock.speed.max(0.5 * (clock.speed + boundaries));
         let is_strained = foresight.strained > foresight.strain_reach;

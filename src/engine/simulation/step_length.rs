@@ -1,6 +1,7 @@
 //! How long the next time steps are, by the stable one, by motion and by what the scene asks for.
 
 use super::Simulation;
+use crate::engine::transfer;
 use crate::laws::contact::impact::LONGEST_PART;
 use crate::scene::{Bond, Insertion, Run, Step};
 
@@ -23,10 +24,16 @@ impl Simulation {
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
     pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
         if self.scene.heat.frozen {
-            return self.scene.run.step.is_automatic().then_some(stable);
+            return self.stride();
         }
         let part = self.part_of_stable()? * stable;
         Some(part.min(self.longest_by_motion()).min(self.longest_by_springs()).min(self.longest_by_vibration()))
+    }
+
+    /// The time step of heat while nothing moves \[s\], infinite where nothing limits it; none where it is given.
+    pub(super) fn stride(&self) -> Option<f64> {
+        let heat = self.state.heat.as_ref().filter(|_| self.scene.run.step.is_automatic())?;
+        Some(if heat.stride > 0.0 { heat.stride } else { transfer::longest_step(Some(heat)) })
     }
 
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and

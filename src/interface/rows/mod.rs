@@ -26,7 +26,7 @@ use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
 use fluid::OF_FLUID;
 use grids::OF_GRIDS;
 pub use grids::{Field, fields};
-use heat::{OF_HEAT, OF_HEATED};
+use heat::{OF_HEAT, OF_HEATED, OF_HEATED_NODES};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
 use row::Each;
@@ -63,6 +63,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
         let of_nodes = OF_NODES
             .iter()
+            .chain(&OF_HEATED_NODES)
             .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_element(node))));
         let all = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_TRACES);
         all.map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
@@ -103,6 +104,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Row> {
         .chain(&OF_HEATED)
         .chain(&OF_TRACES)
         .chain(&OF_NODES)
+        .chain(&OF_HEATED_NODES)
         .chain(&OF_REGIONS)
         .chain(&OF_GRIDS)
         .chain(exchange);
@@ -117,7 +119,8 @@ impl Source {
 
     /// The boundary that it is of, from 0.
     pub(super) fn boundary(&self) -> Option<usize> {
-        matches!(self.row.each, Each::Boundary | Each::Axis | Each::Node).then(|| self.at.boundary.index())
+        matches!(self.row.each, Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar)
+            .then(|| self.at.boundary.index())
     }
 
     /// Whether it is of a boundary and not of one of its nodes.
@@ -129,7 +132,9 @@ impl Source {
     fn owner(self, scene: &Scene) -> &str {
         match self.row.each {
             Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
-            Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[self.at.boundary.index()].name,
+            Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar => {
+                &scene.boundaries[self.at.boundary.index()].name
+            }
             Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[self.at.place()].name,
             Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[self.at.place()].name,
