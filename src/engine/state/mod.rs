@@ -24,6 +24,7 @@ pub mod pace;
 pub mod particles;
 mod plain;
 pub mod snapshot;
+pub mod through;
 
 pub use bonds::{BondList, Break};
 pub use boundaries::{BoundaryState, Orientation, Stand};
@@ -44,6 +45,7 @@ pub use nodes::Nodes;
 pub use number::InsertedParticle;
 pub use pace::Pace;
 pub use particles::{GONE, IMAGE, Particles};
+pub use through::{Separated, Through, TouchedThrough};
 
 pub use crate::base::number::Row;
 
@@ -79,6 +81,8 @@ pub struct State {
     pub walls: Vec<WallContacts>,
     /// The deepest contact since time 0.
     pub deepest: Deepest,
+    /// Pairs of particles with a surface between them.
+    pub through: Through,
     /// Living bonds, a list for each bond law.
     pub bonds: Vec<BondList>,
     /// Bonds that broke since the present communication step began.
@@ -116,6 +120,7 @@ clone_in_place!(State {
     contacts,
     walls,
     deepest,
+    through,
     bonds,
     breaks,
     boundaries,
@@ -223,6 +228,7 @@ impl State {
     /// The caller sets the energies with which an energy book begins, and the mean loads.
     pub fn begin_counting(&mut self) {
         self.deepest = Deepest::default();
+        self.through.first = None;
         self.breaks.clear();
         self.damping_impulse = [0.0; 3];
         self.boundaries.iter_mut().for_each(BoundaryState::begin_counting);
