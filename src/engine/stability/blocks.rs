@@ -259,7 +259,8 @@ impl Blocks<'_> {
         for mover in movers {
             let is_empty =
                 || self.stiffness[mover] == EMPTY && self.damping.get(mover).is_none_or(|block| *block == EMPTY);
-            if if most > 0.0 { self.is_below(mover, most) } else { is_empty() } {
+            let is_passed = if most > 0.0 { self.is_below(mover, most) } else { is_empty() };
+            if is_passed {
                 continue;
             }
             let mut vector = ASKEW;
