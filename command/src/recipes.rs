@@ -61,6 +61,9 @@ recipes! {
     "loaded_beam" "grains on a floor that an elastic beam carries":
         "scene.toml" "../recipes/loaded_beam/scene.toml",
         "couple.py" "../recipes/loaded_beam/couple.py";
+    "heat" "grains that fall on a plate which warms them":
+        "scene.toml" "../recipes/heat/scene.toml",
+        "couple.py" "../recipes/heat/couple.py";
     "clumps" "ballast: stones of four spheres fall into a box":
         "scene.toml" "../recipes/clumps/scene.toml";
     "tablets" "tablets of seven spheres in a drum that turns":

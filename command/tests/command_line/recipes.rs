@@ -4,7 +4,7 @@ use crate::ground::{Place, cograin, complaint};
 use std::fs;
 
 /// Ends that the recipes are run to here \[s\]: some time steps of each.
-const ENDS: [(&str, &str); 12] = [
+const ENDS: [(&str, &str); 13] = [
     ("drop", "1e-3"),
     ("oedometer", "2e-4"),
     ("triaxial", "4e-5"),
@@ -15,6 +15,7 @@ const ENDS: [(&str, &str); 12] = [
     ("rock_core", "2e-6"),
     ("plate", "5e-4"),
     ("loaded_beam", "4e-4"),
+    ("heat", "1e-3"),
     ("clumps", "4e-4"),
     ("tablets", "4e-4"),
 ];
