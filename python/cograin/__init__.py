@@ -7,8 +7,8 @@ A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are
 `Quadratic` is of fourth order.
 `couple` runs both sides and returns a `Record`.
 
-The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh. `Cells` are
-those of a grid.
+The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
+`Cells` are those of a grid.
 
 Forces are those *of the particles on the boundary*. SI units, radians.
 

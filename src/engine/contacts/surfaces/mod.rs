@@ -363,6 +363,7 @@ impl Pass for SurfacePass {
             }
             result = result.and(surface.book(state, workspace.loads.iter().skip(place).step_by(count)));
         }
+        state.through.look(&state.contacts, &state.particles, state.clock.time);
         result
     }
 
@@ -413,14 +414,15 @@ impl Pass for SurfacePass {
                 }));
             }
         }
+        self.find_separated(state);
     }
 }
 
 impl Stiffness for SurfacePass {
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, context: &Context, tell: &mut dyn FnMut(Link)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {
-                Some(list) => listed::stiffness(&list, state, ahead, tell),
+                Some(list) => listed::stiffness(&list, state, ahead, context, tell),
                 None => surface.stiffness_at_features(state, ahead, tell),
             }
         }
