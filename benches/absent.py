@@ -25,6 +25,8 @@ threads = 1
 density = 2500.0
 youngs_modulus = 5.0e7
 poissons_ratio = 0.3
+conductivity = 1.0
+specific_heat = 800.0
 [pair.glass.glass]
 restitution = 0.5
 friction = 0.5
@@ -53,6 +55,8 @@ ADDED = {
     "mesh with fixed nodes": '[boundary.skin]\nmesh = { file = "skin.obj", sides = 2 }\nmaterial = "glass"\n',
     "mesh with driven nodes": '[boundary.skin]\nmesh = { file = "skin.obj", sides = 2 }\nmaterial = "glass"\nnodes = "driven"\n',
 }
+CONDUCTION = "[contact.all.heat.constriction]\n"
+WARM = "temperature = 300.0\n"  # of the particles, whose table is open there
 CELL = "[cell]\nedges = [[0.0999, 0.0, 0.0], [0.0, 0.0999, 0.0], [0.0, 0.0, 0.0999]]\n"
 SKIN = "v 0.3 0.3 0.3\nv 0.4 0.3 0.3\nv 0.4 0.4 0.3\nv 0.3 0.4 0.3\nf 1 2 3\nf 1 3 4\n"
 
@@ -80,7 +84,7 @@ def main():
         other = each_step(options.other, "")
         print(f"{other:.0f} by the other build: {100.0 * (without / other - 1.0):+.2f} %", flush=True)
     scenes = {name: (added, WALLS) for name, added in ADDED.items()}
-    scenes |= {"a cell for the box": (CELL, "")}
+    scenes |= {"conduction": (CONDUCTION, WARM + WALLS), "a cell for the box": (CELL, "")}
     for name, scene in scenes.items():
         more = each_step(options.cograin, *scene) - without
         print(f"{name}: {more:+.0f}, {100.0 * more / without:+.2f} %", flush=True)

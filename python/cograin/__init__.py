@@ -30,7 +30,7 @@ next: cograin check drop/scene.toml
 True
 
 `cograin.results` reads what runs leave, `cograin.plot` draws it, `cograin.study` makes many runs, `cograin.precice`
-joins units to preCICE.
+joins units to preCICE. `cograin.ssp` packs several into one system (SSP).
 """
 
 from cograin.cells import Cells

@@ -8,7 +8,7 @@ import pytest
 from conftest import DROP, ROOT
 
 from cograin import Interface, Oscillator, Secant, couple
-from cograin.results import ResultError, Run, joined, read_frame, read_table, unit_of
+from cograin.results import ResultError, Run, joined, read_frame, read_image, read_table, unit_of
 
 SCENE = """
 gravity = [0.0, 0.0, -9.81]
@@ -51,6 +51,10 @@ energy = true
 losses = true
 [derived.support]
 sum = ["floor.force.z", "floor.mean_force.z"]
+[grid.cut]
+box = [[-0.02, -0.02, 0.0], [0.07, 0.01, 0.04]]
+counts = [3, 1, 2]
+outputs = ["porosity", "velocity", "stress", "count", "count_by_set"]
 [region.all]
 box = [[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]]
 """
@@ -79,6 +83,8 @@ def test_names_of_every_kind_tell_their_units():
         "cell.servo_error.xx": "Pa",
         "cell.conjugate_stress.xz": "Pa",
         "heap.granular_temperature": "m2/s2",
+        "bed.cell[3].stress.xx": "Pa",
+        "bed.cell[3].count_by_set.mass": "1",
     }.items():
         assert unit_of(name) == unit, name
 
@@ -144,6 +150,32 @@ def test_frames_are_the_arrays_that_meshio_reads(folder):
         assert [list(cell) for cell in ours.cells] == ends, kind
 
 
+def test_fields_of_a_grid_are_the_arrays_that_vtk_reads(folder):
+    pyvista = pytest.importorskip("pyvista")
+    ours, theirs = read_image(folder / "grid_cut_000001.vti"), pyvista.read(folder / "grid_cut_000001.vti")
+    assert np.abs(ours.centres - theirs.cell_centers().points).max() < 1e-15
+    assert list(ours.fields) == list(theirs.cell_data.keys()) == ["porosity", "velocity", "stress", "count", "count_by_set"]
+    for name, values in theirs.cell_data.items():
+        assert np.array_equal(ours[name], np.asarray(values).reshape(ours[name].shape)), name
+    stress = theirs.GetCellData().GetArray("stress")
+    assert tuple(stress.GetComponentName(place) for place in range(6)) == ours.components["stress"]
+    assert ours.components["stress"] == ("xx", "yy", "zz", "xy", "xz", "yz")
+
+
+def test_a_grid_shows_where_the_spheres_are(folder):
+    last = Run(folder).frames[-1]
+    assert last.grids == ["cut"]
+    image, particles = last.grid("cut"), last.particles
+    assert repr(image) == "<Image of 3 x 1 x 2 cells: porosity, velocity, stress, count, count_by_set>"
+    assert image["count_by_set"].sum(axis=0).tolist() == [2, 1] and image["count"].sum() == 3
+    solid = ((1.0 - image["porosity"]) * image.edges.prod()).sum()
+    assert solid <= 3 * 4 / 3 * np.pi * 0.01**3
+    place = np.floor((particles.points - image.lower) / image.edges).astype(int)
+    assert image.box("count")[tuple(place.T)].min() >= 1
+    with pytest.raises(ResultError, match="grid_heap_000002.vti: expected a frame of cograin: No such file"):
+        last.grid("heap")
+
+
 def test_a_frame_knows_its_time_and_what_it_has(folder):
     first, *_, last = Run(folder).frames
     assert [first.time, last.time] == [0.0, 0.02]
@@ -187,7 +219,7 @@ def test_everything_that_a_run_has_is_drawn(folder, tmp_path):
     made = {path.name for path in draw(folder, tmp_path / "pictures")}
     assert made == {
         "history.png", "energy.png", "packing_velocity.png", "packing_force.png", "packing_set.png", "force_chains.png",
-        "cracks.png", "animation.gif",
+        "cracks.png", "animation.gif", "cut_porosity.png", "cut_velocity.png", "cut_stress.png", "cut_count.png",
     }  # fmt: skip
     for path in (tmp_path / "pictures").iterdir():
         assert path.stat().st_size > 3000, path

@@ -82,10 +82,21 @@ pub enum HeatGiven {
 type Objection = (String, &'static str, Mistake);
 
 impl ContactLaw {
-    /// Coefficients of its heat sub-model for two materials, and whether those of its normal model count for it; none where it has none or
-    /// a property is missing.
+    /// Coefficients of its heat sub-model for two materials; none where it has none or a property is missing.
     pub(crate) fn heat_between(&self, pair: &MaterialPair) -> Option<Vec<f64>> {
         self.heat?.between(pair).ok()
+    }
+
+    /// Coefficients of its heat sub-model for each two materials, row by row; zeros where nothing meets, which may lack properties.
+    pub(crate) fn heat_rows(&self, scene: &SceneDraft) -> Vec<Vec<f64>> {
+        let (Some(model), materials) = (self.heat, scene.materials.len()) else { return Vec::new() };
+        let row = |entry: usize| {
+            let (a, b) = (&scene.materials[entry / materials], &scene.materials[entry % materials]);
+            let pair = MaterialPair { a, b, properties: &scene.pairs[entry] };
+            let row = self.between[entry].then(|| self.heat_between(&pair)).flatten();
+            row.unwrap_or_else(|| vec![0.0; model.count()])
+        };
+        (0..materials * materials).map(row).collect()
     }
 }
 

@@ -43,7 +43,7 @@ def test_the_piston_gives_its_expected_numbers(unit, tmp_path):
     compare(table(result), table(folder / "expected.csv"), 1e-9)
 
 
-@pytest.mark.parametrize("name", ["piston_load", "triaxial", "wheel", "pile_and_probe"])
+@pytest.mark.parametrize("name", ["piston_load", "triaxial", "wheel", "pile_and_probe", "chute_wear"])
 def test_a_model_that_runs_by_itself_begins_as_expected(cograin, name, tmp_path):
     folder = ROOT / "models" / name
     expected = table(folder / "expected.csv")

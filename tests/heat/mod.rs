@@ -6,7 +6,9 @@ mod boundaries;
 mod inputs;
 mod losses;
 mod network;
+mod nodes;
 mod refused;
+mod relaxation;
 mod same_bits;
 
 use cograin::simulation::Simulation;

@@ -13,8 +13,9 @@ Colours are told apart with any colour vision, and in print by their lightness o
 """
 
 from cograin.plot.command import draw, main
+from cograin.plot.facets import facets
 from cograin.plot.sections import section
 from cograin.plot.space import animation, cracks, force_chains, packing
 from cograin.plot.tables import energy, history
 
-__all__ = ["animation", "cracks", "draw", "energy", "force_chains", "history", "main", "packing", "section"]
+__all__ = ["animation", "cracks", "draw", "energy", "facets", "force_chains", "history", "main", "packing", "section"]

@@ -84,6 +84,16 @@ impl CoefficientTable {
         self.uniform_with(self.single?)
     }
 
+    /// The number of the one row that all particles have with each other, if it is one.
+    pub(crate) fn uniform_entry(&self) -> Option<u32> {
+        self.uniform_entry_with(self.single?)
+    }
+
+    /// The same with this material.
+    pub(crate) fn uniform_entry_with(&self, material: u32) -> Option<u32> {
+        Some(self.entry(self.single?, material))
+    }
+
     /// The one row that all particles have with this material, if it is one.
     #[inline(always)]
     pub(crate) fn uniform_with(&self, material: u32) -> Option<&[f64]> {

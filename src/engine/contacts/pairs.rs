@@ -6,6 +6,7 @@ use crate::base::number::{Number, add, subtract};
 use crate::engine::contacts::batches::{Bodies, ContactGeometry, FOUND, SpherePair, Touching};
 use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::state::Row;
+use crate::engine::state::heat::exchange;
 use crate::laws::contact::Needs;
 use std::ops::Range;
 
@@ -30,6 +31,8 @@ pub(super) struct Pairs<'a> {
     pub torque: Shared<Row>,
     /// Heat of losses \[J\]; empty where none warms the particles.
     pub heat: Shared<f64>,
+    /// Temperatures and heat flows; empty where nothing conducts.
+    pub present: Shared<Row>,
 }
 
 impl Bodies for Pairs<'_> {
@@ -106,6 +109,13 @@ impl Bodies for Pairs<'_> {
         for slot in [first, second] {
             // SAFETY: slabs worked on at the same time do not share particles.
             unsafe { *self.heat.at(slot as usize) += 0.5 * heat };
+        }
+    }
+
+    fn conduct(&self, [first, second]: [&[u32]; 2], conductance: &[f64], _sum: &mut ()) {
+        for ((&first, &second), &conductance) in first.iter().zip(second).zip(conductance) {
+            // SAFETY: slabs worked on at the same time do not share particles.
+            unsafe { exchange([self.present.at(first as usize), self.present.at(second as usize)], conductance) };
         }
     }
 

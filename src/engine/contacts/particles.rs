@@ -17,7 +17,7 @@ use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};
 use crate::engine::contacts::encounters::{self, Encounters};
 use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
-use crate::engine::state::{ContactList, Deepest, Named, Particles, State, StateFault};
+use crate::engine::state::{ContactList, Deepest, Named, Particles, Row, State, StateFault};
 use crate::laws::contact::{Contact, Law};
 use crate::scene::Scene;
 use std::sync::{Mutex, PoisonError};
@@ -96,8 +96,8 @@ impl Pass for ContactPass {
 }
 
 impl Stiffness for ContactPass {
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
-        listed::stiffness(self, state, ahead, tell);
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, context: &Context, tell: &mut dyn FnMut(Link)) {
+        listed::stiffness(self, state, ahead, context, tell);
     }
 
     fn impacts(&self, _state: &State, meeting: &Meeting, tell: &mut dyn FnMut(Option<u32>, [Frame; 2])) {
@@ -151,7 +151,9 @@ impl ContactPass {
     ) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
-        let heat = state.heat.as_mut().map_or(&mut [][..], |heat| &mut heat.of_losses);
+        let (heat, present): (&mut [f64], &mut [Row]) =
+            state.heat.as_mut().map_or((&mut [], &mut []), |heat| (&mut heat.of_losses, &mut heat.slots));
+        let conducting = self.law.conducting(self.table.uniform_entry()).filter(|_| !present.is_empty());
         let batches = Batches {
             bodies: Pairs {
                 first: &list.first,
@@ -163,6 +165,7 @@ impl ContactPass {
                 force: Shared::new(&mut particles.force),
                 torque: Shared::new(&mut particles.torque),
                 heat: Shared::new(heat),
+                present: Shared::new(present),
             },
             entries: Entries::of(&mut list.flags, list.history.rows(), list.history.all_mut(), &mut list.pair_constant),
             law: &self.law,
@@ -172,6 +175,7 @@ impl ContactPass {
             width: context.width,
             deepest,
             follows: followed.is_some(),
+            conducting,
         };
         let owners = followed::Bodies { material: &particles.material, owner: &particles.owner };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);

@@ -7,7 +7,7 @@ use crate::engine::boundaries::{course, nodes};
 use crate::engine::fluid;
 use crate::engine::state::Underway;
 use crate::engine::state::clock::MOST_STEPS;
-use crate::engine::transfer;
+use crate::engine::transfer::{self, Transfer};
 use crate::laws::motion::Progress;
 use crate::scene::Boundary;
 
@@ -74,6 +74,7 @@ impl Simulation {
     /// Begins a communication step: what the outside gave is taken.
     fn begin_interval(&mut self, interval: f64) -> Result<(), RunError> {
         self.check_frozen()?;
+        self.transfer.iter_mut().for_each(Transfer::forget);
         course::begin(&self.scene, &mut self.state, interval)?;
         nodes::begin(&self.scene, &mut self.state, interval);
         transfer::begin(self.state.heat.as_mut(), interval);
@@ -130,7 +131,7 @@ impl Simulation {
         }
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        self.look_at_contacts(boundary_speed);
+        self.look_at_contacts(boundary_speed, standing);
         if self.is_due(boundary_speed, step) {
             self.look(step, &Context { step, ..*standing })?;
         }
@@ -144,7 +145,7 @@ impl Simulation {
     fn divided(&mut self, interval: f64, standing: &Context) -> Result<Underway, RunError> {
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        let seen = self.look_at_contacts(boundary_speed);
+        let seen = self.look_at_contacts(boundary_speed, standing);
         if self.is_due(boundary_speed, step) {
             self.look(step, &Context { step, ..*standing })?;
         }
@@ -177,9 +178,15 @@ impl Simulation {
         Ok(())
     }
 
-    /// The time step by which what is left is to be divided anew, since the one before was far shorter than time steps are; none where
-    /// it was not.
+    /// The time step by which what is left is to be divided anew, since the one before was far shorter than time steps are, or heat
+    /// alone asks for another; none where neither is so.
     fn growing(&self, underway: &Underway) -> Option<f64> {
+        if self.scene.heat.frozen {
+            let left = underway.count - underway.done;
+            let is_other =
+                |stride: &f64| underway.step > (1.0 + WHOLE) * stride || (left > 1 && 2.0 * underway.step <= *stride);
+            return self.stride().filter(is_other);
+        }
         let (last, whole) = (self.state.clock.last_step, self.state.clock.step);
         if last <= 0.0 || !self.scene.boundaries.iter().any(Boundary::is_led) {
             return None;
@@ -218,7 +225,7 @@ impl Simulation {
             if self.boundaries_change_speed() {
                 underway.boundary_speed = self.boundary_speed();
             }
-            let seen = self.look_at_contacts(underway.boundary_speed);
+            let seen = self.look_at_contacts(underway.boundary_speed, standing);
             let is_due = self.is_due(underway.boundary_speed, step) || (seen == Seen::Everything && self.is_calmer());
             if is_due {
                 self.check_plane()?;

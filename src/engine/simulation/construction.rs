@@ -114,11 +114,11 @@ impl Simulation {
         let result = self.evaluate(&context);
         self.book_second_kick(None, &context);
         self.open_energy_book();
-        self.look_at_heat(&context);
+        self.look_at_heat();
         result.map_err(|error| self.named(error))?;
         (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
         self.state.clock.speed = self.coming_speed(0.0);
-        self.find_pace(self.state.clock.speed.max(self.boundary_speed()), true);
+        self.find_pace(self.state.clock.speed.max(self.boundary_speed()), true, &context);
         self.first_step(&context)?;
         self.look_at_pressed();
         self.look_at_cell();
@@ -147,6 +147,7 @@ impl Simulation {
     /// Goes back to a state that this simulation was in, or one that has been checked: it is not looked at again.
     pub fn return_to(&mut self, state: &State) {
         self.rollback.forget();
+        self.transfer.iter_mut().for_each(Transfer::forget);
         let same = self.state.coefficients == state.coefficients && self.state.tuned == state.tuned;
         self.state.clone_from(state);
         if !same {

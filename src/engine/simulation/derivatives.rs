@@ -36,8 +36,8 @@ pub enum Input {
     Rate(usize),
     /// Of a component of the strain of the periodic cell.
     Strain(usize),
-    /// The temperature of a boundary, or the heat flow into it from the outside.
-    Heat(BoundaryIndex),
+    /// The temperature of a boundary or of one of its nodes, by its number from 0, or the heat flow into a boundary from the outside.
+    Heat(BoundaryIndex, Option<usize>),
     /// Of a component of the velocity of the fluid.
     Fluid(usize),
 }
@@ -138,7 +138,10 @@ impl Simulation {
             Input::Node(boundary, node, axis) => {
                 state.nodes_of_mut(boundary.index()).map(|nodes| &mut nodes.target[node][axis])
             }
-            Input::Heat(boundary) => state.heat.as_mut().map(|heat| &mut heat.boundaries[boundary.index()].target),
+            Input::Heat(boundary, node) => {
+                let surface = state.heat.as_mut().and_then(|heat| heat.surface_mut(boundary.index(), node));
+                surface.map(|surface| &mut surface.target)
+            }
             Input::Fluid(axis) => state.fluid.as_mut().map(|fluid| &mut fluid.target[axis]),
             Input::Strain(component) => state.cell.as_mut().map(|cell| &mut cell.target[component]),
             Input::Rate(insertion) => {
@@ -162,7 +165,7 @@ impl Simulation {
             Input::Rate(insertion) => return part * self.usual_rate(insertion, length),
             Input::Strain(component) => return self.usual_strain(component, part),
             Input::Fluid(_) => return run.derivative_displacement * self.usual_fluid(length),
-            Input::Heat(boundary) => return run.derivative_displacement * self.usual_heat(boundary, length),
+            Input::Heat(boundary, _) => return run.derivative_displacement * self.usual_heat(boundary, length),
         };
         let CurrentContact { overlap, radius, arm } = self.met_by(boundary);
         let way = (part * overlap).max(LEAST * radius);

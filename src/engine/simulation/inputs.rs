@@ -54,16 +54,35 @@ impl Simulation {
     /// Sets the thermal input of a boundary for the next interval: its temperature at the end \[K\] or, where it has a heat capacity,
     /// the heat flow from the outside \[W\].
     pub fn set_heat(&mut self, boundary: BoundaryIndex, value: f64) {
-        if let Some(heat) = &mut self.state.heat {
-            let boundary = &mut heat.boundaries[boundary.index()];
-            (boundary.target, boundary.target_rate) = (value, 0.0);
-        }
+        self.set_thermal((boundary, None), [value, 0.0]);
     }
 
     /// The rate of that value over the next interval \[K/s, W/s\].
     pub fn set_heat_rate(&mut self, boundary: BoundaryIndex, rate: f64) {
-        if let Some(heat) = &mut self.state.heat {
-            heat.boundaries[boundary.index()].target_rate = rate;
+        self.set_thermal_rate((boundary, None), rate);
+    }
+
+    /// Sets the temperature of a node of a mesh, by its number from 0, at the end of the next interval \[K\].
+    pub fn set_node_temperature(&mut self, boundary: BoundaryIndex, node: usize, value: f64) {
+        self.set_thermal((boundary, Some(node)), [value, 0.0]);
+    }
+
+    /// The rate of that value over the next interval \[K/s\].
+    pub fn set_node_temperature_rate(&mut self, boundary: BoundaryIndex, node: usize, rate: f64) {
+        self.set_thermal_rate((boundary, Some(node)), rate);
+    }
+
+    /// Sets a thermal input and its rate.
+    fn set_thermal(&mut self, (boundary, node): (BoundaryIndex, Option<usize>), [value, rate]: [f64; 2]) {
+        if let Some(it) = self.state.heat.as_mut().and_then(|heat| heat.surface_mut(boundary.index(), node)) {
+            (it.target, it.target_rate) = (value, rate);
+        }
+    }
+
+    /// Sets the rate of a thermal input.
+    fn set_thermal_rate(&mut self, (boundary, node): (BoundaryIndex, Option<usize>), rate: f64) {
+        if let Some(it) = self.state.heat.as_mut().and_then(|heat| heat.surface_mut(boundary.index(), node)) {
+            it.target_rate = rate;
         }
     }
 

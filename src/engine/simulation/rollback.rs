@@ -6,7 +6,7 @@
 
 use super::{RunError, Simulation};
 use crate::engine::state::cell::Strains;
-use crate::engine::state::{BoundaryState, Row, State};
+use crate::engine::state::{BoundaryState, Heat, Row, State};
 
 /// Time steps after which a new state is kept: what going back may cost, and what the copy is shared by.
 const MOST_STEPS: u64 = 64;
@@ -50,6 +50,8 @@ pub(super) struct Rollback {
     nodes: Vec<[Row; 2]>,
     /// The same of the strains of a periodic cell.
     strains: Vec<[Strains; 2]>,
+    /// Thermal inputs of boundaries and nodes that were given for them, and their rates.
+    heat: Vec<[f64; 2]>,
     /// Rates of insertions that were given for them, and how they change, insertion by insertion.
     rates: Vec<[f64; 2]>,
     /// Whether the beginning of the last communication step is asked for again and again: then it is kept itself.
@@ -86,6 +88,7 @@ impl Rollback {
             self.nodes.clear();
             self.strains.clear();
             self.rates.clear();
+            self.heat.clear();
             self.holds = true;
         }
         self.intervals.push(interval);
@@ -93,6 +96,8 @@ impl Rollback {
         let nodes = state.nodes.iter().flat_map(|nodes| nodes.target.iter().zip(&nodes.target_rate));
         self.nodes.extend(nodes.map(|(target, rate)| [*target, *rate]));
         self.strains.extend(state.cell.iter().map(|cell| [cell.target, cell.target_rate]));
+        let thermal = state.heat.iter().flat_map(Heat::surfaces);
+        self.heat.extend(thermal.map(|it| [it.target, it.target_rate]));
         let feeds = state.exchange.iter().flat_map(|exchange| &exchange.feeds);
         self.rates.extend(feeds.map(|feed| [feed.rate, feed.rate_of_rate]));
     }
@@ -137,6 +142,11 @@ impl Simulation {
             }
             if let Some(cell) = &mut self.state.cell {
                 [cell.target, cell.target_rate] = way.strains[number];
+            }
+            let count = self.state.heat.iter().flat_map(Heat::surfaces).count();
+            let thermal = self.state.heat.iter_mut().flat_map(Heat::surfaces_mut);
+            for (surface, given) in thermal.zip(&way.heat[number * count..]) {
+                [surface.target, surface.target_rate] = *given;
             }
             let feeds = self.state.exchange.iter_mut().flat_map(|exchange| &mut exchange.feeds);
             let count = self.scene.insertions.len();

@@ -102,8 +102,8 @@ impl Simulation {
             (cell.target, cell.target_rate) = (given.target, given.target_rate);
         }
         if let (Some(heat), Some(given)) = (&mut self.state.heat, &other.state.heat) {
-            for (boundary, given) in heat.boundaries.iter_mut().zip(&given.boundaries) {
-                (boundary.target, boundary.target_rate) = (given.target, given.target_rate);
+            for (surface, given) in heat.surfaces_mut().zip(given.surfaces()) {
+                (surface.target, surface.target_rate) = (given.target, given.target_rate);
             }
         }
         if let (Some(fluid), Some(given)) = (&mut self.state.fluid, &other.state.fluid) {

@@ -4,6 +4,7 @@ use super::stages::{Phase, Stages};
 use super::{RunError, Simulation};
 use crate::base::threads::Context;
 use crate::engine::integration;
+use crate::engine::state::Heat;
 use crate::laws::bond::creation::Moment;
 use crate::laws::motion::Progress;
 
@@ -126,6 +127,7 @@ impl Simulation {
         integration::clear_loads(&mut self.state.particles);
         let mut step = TimeStep::standing(context);
         self.run_stages(Phase::Forces, &mut step);
+        self.state.heat.iter_mut().for_each(Heat::forget_step);
         step.found
     }
 

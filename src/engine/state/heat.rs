@@ -2,7 +2,7 @@
 
 use super::check::{all_finite, demand, demand_all};
 use super::in_place::clone_in_place;
-use super::{StateFault, plain};
+use super::{Row, StateFault, plain};
 use serde::{Deserialize, Serialize};
 
 /// Heat of a scene in which it flows. Columns of particles go by their index, as their number never changes.
@@ -25,6 +25,8 @@ pub struct Heat {
     pub flow: Vec<f64>,
     /// The boundaries, in the scene's order.
     pub boundaries: Vec<BoundaryHeat>,
+    /// The meshes whose nodes have temperatures.
+    pub nodes: Vec<NodesHeat>,
     /// Numbers of the particles that came, by index less the number of the scene's own: who each entry is of.
     #[serde(with = "plain")]
     pub numbers: Vec<u32>,
@@ -37,8 +39,14 @@ pub struct Heat {
     /// Heat that losses give to what stands in each slot in the present time step \[J\]; empty between time steps.
     #[serde(skip)]
     pub of_losses: Vec<f64>,
+    /// What stands in each slot in the present time step: temperature when counting began, by how much it is warmer now \[K\], heat flow into
+    /// it \[W\], sum of the conductances at it \[W/K\]; empty between time steps.
+    #[serde(skip)]
+    pub slots: Vec<Row>,
     /// Largest sum of the conductances of a body over its heat capacity at the present time \[1/s\].
     pub rate: f64,
+    /// Length of the next time step by the error of the last one, where nothing moves \[s\]; 0 before the first.
+    pub stride: f64,
 }
 
 clone_in_place!(Heat {
@@ -47,15 +55,21 @@ clone_in_place!(Heat {
     gained,
     flow,
     boundaries,
+    nodes,
     numbers,
     departed,
     given,
     by_losses,
     of_losses,
-    rate
+    slots,
+    rate,
+    stride
 });
 
-/// Temperature of a boundary, and heat that the particles gave to it. Zeros where it has no temperature.
+/// A temperature: that when counting began, and by how much the present one is above it \[K\].
+pub(crate) type Level = [f64; 2];
+
+/// Temperature of a boundary or a node, and heat that the particles gave to it. Zeros where it has no temperature.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryHeat {
     /// Temperature when counting began \[K\].
@@ -83,12 +97,63 @@ pub struct BoundaryHeat {
     /// Heat that losses give to it in the present time step \[J\]; 0 between time steps.
     #[serde(skip)]
     pub of_losses: f64,
+    /// Heat flow into it in the present time step \[W\], and the sum of the conductances at it \[W/K\]; 0 between time steps.
+    #[serde(skip)]
+    pub into: [f64; 2],
+}
+
+/// Temperatures of the nodes of one mesh, in the order of its vertices, and what of the heat into the mesh is theirs.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct NodesHeat {
+    /// The boundary.
+    pub boundary: u32,
+    /// The nodes.
+    pub each: Vec<BoundaryHeat>,
+}
+
+clone_in_place!(NodesHeat { boundary, each });
+
+/// Lets heat flow between two bodies over a conductance \[W/K\]: rows of [`Heat::slots`].
+#[inline(always)]
+pub(crate) fn exchange([first, second]: [&mut Row; 2], conductance: f64) {
+    let flow = conductance * difference([second[0], second[1]], [first[0], first[1]]);
+    (first[2], first[3]) = (first[2] + flow, first[3] + conductance);
+    (second[2], second[3]) = (second[2] - flow, second[3] + conductance);
+}
+
+/// Difference of two temperatures, in which small rises are not lost \[K\].
+#[inline(always)]
+pub(crate) fn difference([t, rise]: Level, [u, other]: Level) -> f64 {
+    (t - u) + (rise - other)
 }
 
 impl BoundaryHeat {
     /// Temperature \[K\].
     pub fn temperature(&self) -> f64 {
         self.initial + self.rise
+    }
+
+    /// The same as two numbers.
+    pub(crate) fn level(&self) -> Level {
+        [self.initial, self.rise]
+    }
+
+    /// Adds a heat flow into it \[W\] over a conductance \[W/K\].
+    pub(crate) fn takes(&mut self, [flow, conductance]: [f64; 2]) {
+        self.into = [self.into[0] + flow, self.into[1] + conductance];
+    }
+
+    /// Counts heat from here.
+    fn begin_counting(&mut self) {
+        self.initial = self.temperature();
+        (self.rise, self.before, self.present, self.applied) = (0.0, 0.0, 0.0, 0.0);
+    }
+
+    /// Its numbers.
+    fn numbers(&self) -> impl Iterator<Item = f64> {
+        let [start, end] = self.course;
+        let given = [self.initial, self.rise, self.capacity, self.target, self.target_rate, start, end];
+        given.into_iter().chain([self.flow, self.before, self.present, self.mean_flow, self.applied])
     }
 
     /// Heat of the particles into it since counting began \[J\].
@@ -114,11 +179,39 @@ impl Heat {
         self.gained.iter().sum::<f64>() + self.departed
     }
 
-    /// Begins to collect heat of losses, for so many slots.
-    pub(crate) fn collect(&mut self, slots: usize) {
+    /// Boundaries and nodes.
+    pub(crate) fn surfaces(&self) -> impl Iterator<Item = &BoundaryHeat> {
+        self.boundaries.iter().chain(self.nodes.iter().flat_map(|nodes| &nodes.each))
+    }
+
+    /// The same.
+    pub(crate) fn surfaces_mut(&mut self) -> impl Iterator<Item = &mut BoundaryHeat> {
+        self.boundaries.iter_mut().chain(self.nodes.iter_mut().flat_map(|nodes| &mut nodes.each))
+    }
+
+    /// The nodes of a boundary, where these have temperatures.
+    pub fn nodes_of(&self, boundary: usize) -> Option<&[BoundaryHeat]> {
+        self.nodes.iter().find(|nodes| nodes.boundary as usize == boundary).map(|nodes| &*nodes.each)
+    }
+
+    /// The same.
+    pub(crate) fn nodes_of_mut(&mut self, boundary: usize) -> Option<&mut [BoundaryHeat]> {
+        self.nodes.iter_mut().find(|nodes| nodes.boundary as usize == boundary).map(|nodes| &mut *nodes.each)
+    }
+
+    /// A boundary or, where one is named, its node.
+    pub(crate) fn surface_mut(&mut self, boundary: usize, node: Option<usize>) -> Option<&mut BoundaryHeat> {
+        match node {
+            None => self.boundaries.get_mut(boundary),
+            Some(node) => self.nodes_of_mut(boundary)?.get_mut(node),
+        }
+    }
+
+    /// Forgets what was collected in a time step.
+    pub(crate) fn forget_step(&mut self) {
         self.of_losses.clear();
-        self.of_losses.resize(slots, 0.0);
-        self.boundaries.iter_mut().for_each(|boundary| boundary.of_losses = 0.0);
+        self.slots.clear();
+        self.surfaces_mut().for_each(|it| (it.of_losses, it.into) = (0.0, [0.0; 2]));
     }
 
     /// Counts heat from here.
@@ -127,10 +220,7 @@ impl Heat {
             self.initial[index] = self.temperature(index);
         }
         self.gained.fill(0.0);
-        for boundary in &mut self.boundaries {
-            boundary.initial = boundary.temperature();
-            (boundary.rise, boundary.before, boundary.present, boundary.applied) = (0.0, 0.0, 0.0, 0.0);
-        }
+        self.surfaces_mut().for_each(BoundaryHeat::begin_counting);
         (self.given, self.by_losses, self.departed) = (0.0, 0.0, 0.0);
     }
 
@@ -142,14 +232,13 @@ impl Heat {
         demand(!stay || self.capacity == other.capacity, "heat", 1, "the heat capacities of the scene")?;
         let boundaries = &self.boundaries;
         demand(boundaries.len() == other.boundaries.len(), "heat", boundaries.len(), "one entry for each boundary")?;
-        let numbers = boundaries.iter().flat_map(|it| {
-            let [start, end] = it.course;
-            let given = [it.initial, it.rise, it.capacity, it.target, it.target_rate, start, end];
-            given.into_iter().chain([it.flow, it.before, it.present, it.mean_flow, it.applied])
-        });
-        let numbers: Vec<f64> = numbers.chain([self.given, self.by_losses, self.departed, self.rate]).collect();
+        let sizes = |heat: &Self| heat.nodes.iter().map(|it| (it.boundary, it.each.len())).collect::<Vec<_>>();
+        demand(sizes(self) == sizes(other), "heat", self.nodes.len(), "the nodes of the meshes of the scene")?;
+        let numbers = self.surfaces().flat_map(BoundaryHeat::numbers);
+        let numbers: Vec<f64> =
+            numbers.chain([self.given, self.by_losses, self.departed, self.rate, self.stride]).collect();
         all_finite(&numbers, "heat")?;
-        let same = boundaries.iter().zip(&other.boundaries).map(|(it, other)| it.capacity == other.capacity);
+        let same = self.surfaces().zip(other.surfaces()).map(|(it, other)| it.capacity == other.capacity);
         demand_all(same, "heat", "the heat capacities of the boundaries")
     }
 }

@@ -1,7 +1,7 @@
 //! Heat of a scene at time 0.
 
 use super::renew;
-use crate::engine::state::heat::BoundaryHeat;
+use crate::engine::state::heat::{BoundaryHeat, NodesHeat};
 use crate::engine::state::{GONE, Heat, Particles, State};
 use crate::laws::column::TEMPERATURE;
 use crate::scene::{Boundary, BoundaryTemperature, Scene};
@@ -27,8 +27,18 @@ pub(crate) fn begun(scene: &Scene) -> Option<Heat> {
         gained: vec![0.0; count],
         flow: vec![0.0; count],
         boundaries,
+        nodes: scene.boundaries.iter().enumerate().filter_map(nodes).collect(),
         ..Heat::default()
     })
+}
+
+/// The nodes of a boundary of this index at time 0, where they have temperatures.
+fn nodes((index, boundary): (usize, &Boundary)) -> Option<NodesHeat> {
+    let BoundaryTemperature::Driven(temperature) = boundary.temperature else { return None };
+    let count = boundary.driven_nodes();
+    let (initial, target) = (temperature, temperature);
+    let node = BoundaryHeat { initial, target, course: [target; 2], ..BoundaryHeat::default() };
+    (count > 0).then(|| NodesHeat { boundary: index as u32, each: vec![node; count] })
 }
 
 /// A boundary at time 0, beside temperatures \[K\] and heat capacities of the particles \[J/K\].

@@ -1,15 +1,21 @@
 //! Conductances of contacts and bonds.
 
-use super::flows::Flows;
 use crate::base::number::Vector;
-use crate::base::threads::Context;
 use crate::engine::contacts::SurfaceTouch;
-use crate::engine::state::contacts::{BONDED, TOUCHING};
 use crate::engine::state::{ContactList, Row, State};
 use crate::laws::contact::heat::Spot;
-use crate::laws::contact::{Adhesion, HeatModel, MaterialPair, NormalModel};
+use crate::laws::contact::{Adhesion, HeatModel, NormalModel};
 use crate::scene::Scene;
 use std::f64::consts::PI;
+
+/// Who is told what conducts.
+pub(super) trait Conductances {
+    /// Two particles (slots) conduct \[W/K\].
+    fn between(&mut self, first: u32, second: u32, conductance: f64);
+
+    /// A particle (slot) and a boundary conduct \[W/K\].
+    fn at_boundary(&mut self, slot: u32, boundary: u32, conductance: f64);
+}
 
 /// What a contact law conducts.
 pub(super) struct Conduction {
@@ -32,14 +38,7 @@ impl Conduction {
     pub(super) fn of(scene: &Scene, law: usize) -> Option<Self> {
         let contact = &scene.contacts[law];
         let (model, materials) = (contact.heat?, scene.materials.len());
-        let row = |entry: usize| {
-            let (a, b) = (&scene.materials[entry / materials], &scene.materials[entry % materials]);
-            let pair = MaterialPair { a, b, properties: &scene.pairs[entry] };
-            // What nothing meets may lack properties.
-            let row = contact.between[entry].then(|| model.between(&pair).ok()).flatten();
-            row.unwrap_or_else(|| vec![0.0; model.count()])
-        };
-        let rows = (0..materials * materials).flat_map(row).collect();
+        let rows = contact.heat_rows(scene).concat();
         let normal = contact.choice.normal;
         let beyond_touch = normal.row().does.adhesion() == Adhesion::BeyondTouch;
         Some(Self { law, model, normal, rows, materials, beyond_touch })
@@ -73,28 +72,21 @@ impl Conduction {
         Some((self.model.row().does.conductance)(self.row(entry), &spot))
     }
 
-    /// Lets heat flow between the particles that touch, slab by slab in the order of the list.
-    pub(super) fn between_particles(&self, list: &ContactList, state: &State, flows: &mut Flows, context: &Context) {
+    /// Tells what the particles conduct that touch, where their entry has one of these flags.
+    pub(super) fn tell(&self, (list, flags): (&ContactList, u8), state: &State, hear: &mut impl Conductances) {
         let (position, material) = (&state.particles.position, &state.particles.material);
-        let flows = flows.slabs();
-        context.slabs(list.slabs.len().saturating_sub(1), |slab| {
-            for entry in list.slabs[slab] as usize..list.slabs[slab + 1] as usize {
-                // What a bond suppresses touches all the same.
-                if list.flags[entry] & (TOUCHING | BONDED) == 0 {
-                    continue;
-                }
-                let (i, j) = (list.first[entry] as usize, list.second[entry] as usize);
-                let pair = material[i] as usize * self.materials + material[j] as usize;
-                if let Some(conductance) = self.of_spheres(state, pair, position[i], position[j]) {
-                    // SAFETY: a list holds slots of particles, and slabs worked on at the same time do not share any.
-                    unsafe { flows.between(i, j, conductance) };
-                }
+        for entry in (0..list.first.len()).filter(|&entry| list.flags[entry] & flags != 0) {
+            let (first, second) = (list.first[entry], list.second[entry]);
+            let (i, j) = (first as usize, second as usize);
+            let pair = material[i] as usize * self.materials + material[j] as usize;
+            if let Some(conductance) = self.of_spheres(state, pair, position[i], position[j]) {
+                hear.between(first, second, conductance);
             }
-        });
+        }
     }
 
-    /// Lets heat flow between a particle and a boundary.
-    pub(super) fn at_boundary(&self, scene: &Scene, touch: &SurfaceTouch, state: &State, flows: &mut Flows) {
+    /// Tells what a particle and a boundary conduct.
+    pub(super) fn at_boundary(&self, scene: &Scene, touch: &SurfaceTouch, state: &State, hear: &mut impl Conductances) {
         let &SurfaceTouch { slot, boundary, overlap, weight, .. } = touch;
         let Some(wall) = scene.boundaries[boundary as usize].shape.material() else { return };
         let (radius, material) =
@@ -106,7 +98,7 @@ impl Conduction {
         let contact_radius = (self.normal.row().does.contact_radius)(self.normal_row(state, entry), overlap, radius);
         let spot = Spot::at_wall(radius, overlap, contact_radius);
         let conductance = (self.model.row().does.conductance)(self.row(entry), &spot);
-        flows.at_boundary(slot, boundary, weight * conductance);
+        hear.at_boundary(slot, boundary, weight * conductance);
     }
 }
 
@@ -124,8 +116,8 @@ impl BondConduction {
         keys.conductivity.map(|conductivity| Self { per_length: conductivity.get() * PI * (multiplier * multiplier) })
     }
 
-    /// Lets heat flow along the living bonds of the law of this place.
-    pub(super) fn conduct(&self, (scene, place): (&Scene, usize), state: &State, flows: &mut Flows) {
+    /// Tells what the living bonds of the law of this place conduct.
+    pub(super) fn tell(&self, (scene, place): (&Scene, usize), state: &State, hear: &mut impl Conductances) {
         let (list, position) = (&state.bonds[place], &state.particles.position);
         let conductance = |radius: f64, length: f64| self.per_length * (radius * radius) / length;
         for (entry, &first) in list.first.iter().enumerate() {
@@ -135,13 +127,13 @@ impl BondConduction {
                 let shift = Vector::from(state.boundaries[plane.index()].displacement);
                 let length = (Vector::from(from) - Vector::from(list.foot[entry]) - shift).length();
                 if scene.boundaries[plane.index()].temperature.at_start().is_some() {
-                    flows.at_boundary(first, plane.0, conductance(from[3], length));
+                    hear.at_boundary(first, plane.0, conductance(from[3], length));
                 }
                 continue;
             };
             let to = position[second as usize];
             let length = (Vector::from(from) - Vector::from(to)).length();
-            flows.between(first, second, conductance(from[3].min(to[3]), length));
+            hear.between(first, second, conductance(from[3].min(to[3]), length));
         }
     }
 }

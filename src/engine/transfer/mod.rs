@@ -1,24 +1,30 @@
 //! Heat: which flows where bodies touch, and how temperatures follow.
 //!
-//! After the forces the touching entries of the lists are gone over again: each conducts by the law of its contact, from the new places and
-//! the old temperatures. What flows is summed in the order of the lists, as forces are, and integrated by Euler's explicit method. A scene
-//! in which no heat flows has neither this nor a column of it.
+//! Where the forces of contacts are evaluated each conducts by its law, from the new places and the old temperatures. What flows is summed in
+//! the order of the lists, as forces are, and integrated by Euler's explicit method; where
+//! nothing moves and no time step is given, by a stabilised one of second order. A scene in which no heat flows has neither this nor a column of it.
 
 mod begin;
 mod boundaries;
 mod conduction;
 mod flows;
+mod network;
+mod relaxation;
 mod renew;
+mod scheme;
+mod sources;
 
 use crate::base::threads::Context;
 use crate::engine::contacts::Pass;
-use crate::engine::state::{GONE, Heat, State};
+use crate::engine::state::contacts::{BONDED, TOUCHING};
+use crate::engine::state::{Heat, State};
 use crate::laws::motion::Progress;
 use crate::scene::{HeatGiven, Scene};
 pub(crate) use begin::{begun, take, tell};
+use boundaries::Ramp;
 pub(crate) use boundaries::{begin, end, put, takes_heat};
-use conduction::{BondConduction, Conduction};
-use flows::Flows;
+use conduction::{BondConduction, Conductances, Conduction};
+use relaxation::Relaxation;
 
 /// What conducts, composed for the scene.
 pub(crate) struct Transfer {
@@ -28,8 +34,8 @@ pub(crate) struct Transfer {
     bonds: Vec<Option<BondConduction>>,
     /// Whether heat flows into each boundary.
     takes: Vec<bool>,
-    /// Working arrays.
-    flows: Flows,
+    /// What flows where nothing moves.
+    relaxation: Relaxation,
 }
 
 /// The temperature of the particle in a slot: of what it belongs to, where that has one \[K\].
@@ -53,11 +59,27 @@ impl Transfer {
             laws: (0..scene.contacts.len()).map(|law| Conduction::of(scene, law)).collect(),
             bonds: (0..scene.bonds.len()).map(|bond| BondConduction::of(scene, bond)).collect(),
             takes: scene.boundaries.iter().map(takes_heat).collect(),
-            flows: Flows::default(),
+            relaxation: Relaxation::default(),
         })
     }
 
-    /// Lets heat flow for a time step, from where everything stands now.
+    /// Begins a time step, before forces are evaluated: open contacts let heat flow there, those that bonds suppress here.
+    pub(crate) fn prepare(&self, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &mut State, context: &Context) {
+        if scene.heat.frozen {
+            return;
+        }
+        if state.exchange.is_some() {
+            renew::renew(scene, state);
+        }
+        let Some(mut heat) = state.heat.take() else { return };
+        flows::begin(state, &mut heat, scene.heat.warms(), context);
+        if scene.suppresses_contacts() {
+            self.tell_contacts((scene, passes), (state, BONDED), &mut heat);
+        }
+        state.heat = Some(heat);
+    }
+
+    /// Ends a time step: what else conducts, what sources and losses give, and what follows from all that flows.
     pub(crate) fn advance(
         &mut self,
         (scene, passes): (&Scene, &[Box<dyn Pass>]),
@@ -65,81 +87,93 @@ impl Transfer {
         progress: &Progress,
         context: &Context,
     ) {
-        self.conduct((scene, passes), state, context);
-        self.flows.take_losses(state.heat.as_mut(), progress.step);
-        self.flows.gather(state);
-        let given = self.sources(scene, state, progress.step);
-        let Some(heat) = &mut state.heat else { return };
-        heat.given += given;
-        self.flows.integrate(&state.particles, heat, progress.step, context);
-        boundaries::advance(scene, heat, progress);
-    }
-
-    /// Finds the conductances of the present network, of which follows how long a time step may be; nothing flows.
-    pub(crate) fn look(&mut self, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &mut State, context: &Context) {
-        self.conduct((scene, passes), state, context);
-        self.flows.gather(state);
-        self.sources(scene, state, 0.0);
-        if let Some(heat) = &mut state.heat {
-            heat.collect(0);
-            self.flows.integrate(&state.particles, heat, 0.0, context);
-            heat.flow.fill(0.0);
-            heat.boundaries.iter_mut().for_each(|boundary| boundary.flow = 0.0);
+        if scene.heat.frozen {
+            self.relax((scene, passes), state, progress, context);
+            return;
         }
+        let Some(mut heat) = state.heat.take() else { return };
+        self.tell_bonds(scene, state, &mut heat);
+        flows::take_losses(&mut heat, progress.step);
+        flows::gather(state, &mut heat);
+        heat.given += give(scene, state, &mut heat, progress.step);
+        flows::integrate(&state.particles, &mut heat, progress.step, context);
+        boundaries::advance(scene, &mut heat, &Ramp::of(progress));
+        heat.forget_step();
+        state.heat = Some(heat);
     }
 
-    /// Sums up what flows between bodies.
-    fn conduct(&mut self, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &mut State, context: &Context) {
+    /// Finds how long a time step may be in the present network; nothing flows.
+    pub(crate) fn look(&mut self, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &mut State) {
         if state.exchange.is_some() {
             renew::renew(scene, state);
         }
-        self.flows.begin(state, context);
-        for (law, list) in self.laws.iter().zip(&state.contacts) {
-            if let Some(law) = law {
-                law.between_particles(list, state, &mut self.flows, context);
-            }
+        let mut relaxation = Relaxation::default();
+        relaxation.connect(self, (scene, passes), state);
+        if let Some(heat) = &mut state.heat {
+            heat.rate = relaxation.rate(heat);
         }
+    }
+
+    /// Something else may conduct from now on.
+    pub(crate) fn forget(&mut self) {
+        self.relaxation.forget();
+    }
+
+    /// Tells all conductances.
+    fn tell(&self, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &State, hear: &mut impl Conductances) {
+        self.tell_contacts((scene, passes), (state, TOUCHING | BONDED), hear);
+        self.tell_bonds(scene, state, hear);
+    }
+
+    /// Tells the conductances of bonds.
+    fn tell_bonds(&self, scene: &Scene, state: &State, hear: &mut impl Conductances) {
         for (place, law) in self.bonds.iter().enumerate() {
             if let Some(law) = law {
-                law.conduct((scene, place), state, &mut self.flows);
+                law.tell((scene, place), state, hear);
+            }
+        }
+    }
+
+    /// Tells the conductances of contacts that have one of these flags.
+    fn tell_contacts(
+        &self,
+        (scene, passes): (&Scene, &[Box<dyn Pass>]),
+        (state, flags): (&State, u8),
+        hear: &mut impl Conductances,
+    ) {
+        for (law, list) in self.laws.iter().zip(&state.contacts) {
+            if let Some(law) = law {
+                law.tell((list, flags), state, hear);
             }
         }
         for pass in passes {
-            pass.touched(state, &mut |touch| {
+            pass.touched((state, flags), &mut |touch| {
                 let law = self.laws[touch.law as usize].as_ref();
                 if let Some(law) = law.filter(|_| self.takes[touch.boundary as usize]) {
-                    law.at_boundary(scene, &touch, state, &mut self.flows);
+                    law.at_boundary(scene, &touch, state, hear);
                 }
             });
         }
     }
+}
 
-    /// Adds what heat sources give. Returns the heat of a time step \[J\].
-    fn sources(&mut self, scene: &Scene, state: &State, step: f64) -> f64 {
-        let mut sum = 0.0;
-        for source in &scene.heat_sources {
-            for &member in &source.members {
-                let slot = state.particles.slot[member as usize];
-                let stands_for = |slot: u32| match flows::body(state, slot as usize) {
-                    flows::Body::Particle(index) => index == member as usize,
-                    flows::Body::Boundary(_) => false,
-                };
-                if slot == GONE || !stands_for(slot) {
-                    continue;
+/// Adds what heat sources give. Returns the heat of a time step \[J\].
+fn give(scene: &Scene, state: &State, heat: &mut Heat, step: f64) -> f64 {
+    let mut sum = 0.0;
+    for source in &scene.heat_sources {
+        for slot in sources::warmed(source, state) {
+            let (flow, conductance) = match source.gives {
+                HeatGiven::Power(power) => (power, 0.0),
+                HeatGiven::Ambient { temperature, conductance } => {
+                    (conductance * flows::below(heat, slot, temperature), conductance)
                 }
-                let flow = match source.gives {
-                    HeatGiven::Power(power) => power,
-                    HeatGiven::Ambient { temperature, conductance } => {
-                        self.flows.conducts(slot, conductance);
-                        conductance * self.flows.below(slot, temperature)
-                    }
-                };
-                self.flows.add(slot, flow);
-                sum += step * flow;
-            }
+            };
+            let row = &mut heat.slots[slot as usize];
+            (row[2], row[3]) = (row[2] + flow, row[3] + conductance);
+            sum += step * flow;
         }
-        sum
     }
+    sum
 }
 
 /// The longest time step in which no body gives more heat than would bring it to the temperature of its neighbours \[s\].

@@ -21,8 +21,11 @@ const GIVEN: Option<Write> = Some(Write {
         BoundaryTemperature::Body { applied, .. } => applied,
         BoundaryTemperature::None | BoundaryTemperature::Held(_) => 0.0,
     },
-    input: |at| Input::Heat(at.boundary),
+    input: |at| Input::Heat(at.boundary, None),
 });
+
+/// An output of each node that has a temperature.
+const OF_NODE: Row = Row { each: Each::NodeScalar, exists: has_nodes, follows_inputs_at_start: false, ..OUTPUT };
 
 /// The temperature of a boundary, as the scene has it.
 fn temperature(scene: &Scene, at: At) -> BoundaryTemperature {
@@ -34,9 +37,26 @@ fn has_temperature(scene: &Scene, at: At) -> bool {
     scene.has_heat() && transfer::takes_heat(&scene.boundaries[at.boundary.index()])
 }
 
-/// Whether the outside gives its temperature.
+/// Whether the outside gives its temperature: one of the whole.
 fn is_driven(scene: &Scene, at: At) -> bool {
-    matches!(temperature(scene, at), BoundaryTemperature::Driven(_))
+    matches!(temperature(scene, at), BoundaryTemperature::Driven(_)) && !has_nodes(scene, at)
+}
+
+/// Whether the outside gives the temperature of each of its nodes.
+fn has_nodes(scene: &Scene, at: At) -> bool {
+    let nodes = scene.boundaries[at.boundary.index()].driven_nodes();
+    matches!(temperature(scene, at), BoundaryTemperature::Driven(_)) && nodes > 0
+}
+
+/// Heat of a node.
+fn of_node(state: &State, at: At) -> BoundaryHeat {
+    let nodes = state.heat.as_ref().and_then(|heat| heat.nodes_of(at.boundary.index()));
+    nodes.map(|nodes| nodes[at.element()]).unwrap_or_default()
+}
+
+/// The same at the present time.
+fn at_node(now: Present, at: At, read: fn(&BoundaryHeat) -> f64) -> Value {
+    Value::Real(read(&of_node(now.simulation.state(), at)))
 }
 
 /// Whether it takes up heat.
@@ -121,6 +141,48 @@ pub(super) static OF_HEATED: [Row; 6] = [
         follows_inputs_at_start: false,
         read: |now, at| Value::Real(of(now, at).heat()),
         ..OF_BOUNDARY
+    },
+];
+
+/// Variables of nodes that have temperatures, inputs first.
+pub(super) static OF_HEATED_NODES: [Row; 4] = [
+    Row {
+        name: "temperature",
+        description: "temperature of node {element} of {boundary}, to be reached at the end of the communication step; at initialisation \
+                      taken at once",
+        quantity: Quantity::Temperature,
+        minimum: Some(0.0),
+        follows_inputs_at_start: OUTPUT.follows_inputs_at_start,
+        write: Some(Write {
+            set: |simulation, at, value| simulation.set_node_temperature(at.boundary, at.element(), value),
+            set_rate: |simulation, at, rate| simulation.set_node_temperature_rate(at.boundary, at.element(), rate),
+            held: |state, at| of_node(state, at).target,
+            start: |scene, at| temperature(scene, at).at_start().unwrap_or(0.0),
+            input: |at| Input::Heat(at.boundary, Some(at.element())),
+        }),
+        read: |now, at| at_node(now, at, |node| node.target),
+        ..OF_NODE
+    },
+    Row {
+        name: "heat_flow",
+        description: "heat flow of the particles into {boundary} in the last time step, the part of node {element}; 0 before the first",
+        quantity: Quantity::HeatFlow,
+        read: |now, at| at_node(now, at, |node| node.flow),
+        ..OF_NODE
+    },
+    Row {
+        name: "mean_heat_flow",
+        description: "heat flow of the particles into {boundary}, the part of node {element}, mean over the last communication step",
+        quantity: Quantity::HeatFlow,
+        read: |now, at| at_node(now, at, |node| node.mean_flow),
+        ..OF_NODE
+    },
+    Row {
+        name: "heat",
+        description: "heat of the particles into {boundary} since the start, the part of node {element}",
+        quantity: Quantity::Energy,
+        read: |now, at| at_node(now, at, BoundaryHeat::heat),
+        ..OF_NODE
     },
 ];
 

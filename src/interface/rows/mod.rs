@@ -3,6 +3,7 @@
 //! A row says everything of its variables: name, unit, when a scene has them, how they are read and written. The unit's
 //! description, the unit, its page and `history.csv` follow from the rows; nothing else lists variables.
 
+mod array;
 mod boundaries;
 mod cell;
 mod exchange;
@@ -18,13 +19,14 @@ mod traces;
 use crate::base::quantity::BoundaryIndex;
 use crate::interface::{Causality, Variable};
 use crate::scene::Scene;
+pub(super) use array::ArrayForm;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
 use fluid::OF_FLUID;
 use grids::OF_GRIDS;
 pub use grids::{Field, fields};
-use heat::{OF_HEAT, OF_HEATED};
+use heat::{OF_HEAT, OF_HEATED, OF_HEATED_NODES};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
 use row::Each;
@@ -61,6 +63,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         let nodes = 0..scene.boundaries[boundary.index()].driven_nodes();
         let of_nodes = OF_NODES
             .iter()
+            .chain(&OF_HEATED_NODES)
             .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_element(node))));
         let all = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_TRACES);
         all.map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
@@ -101,6 +104,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Row> {
         .chain(&OF_HEATED)
         .chain(&OF_TRACES)
         .chain(&OF_NODES)
+        .chain(&OF_HEATED_NODES)
         .chain(&OF_REGIONS)
         .chain(&OF_GRIDS)
         .chain(exchange);
@@ -115,7 +119,8 @@ impl Source {
 
     /// The boundary that it is of, from 0.
     pub(super) fn boundary(&self) -> Option<usize> {
-        matches!(self.row.each, Each::Boundary | Each::Axis | Each::Node).then(|| self.at.boundary.index())
+        matches!(self.row.each, Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar)
+            .then(|| self.at.boundary.index())
     }
 
     /// Whether it is of a boundary and not of one of its nodes.
@@ -123,28 +128,41 @@ impl Source {
         matches!(self.row.each, Each::Boundary | Each::Axis)
     }
 
+    /// Name of what it is of; empty where it is of the whole scene.
+    fn owner(self, scene: &Scene) -> &str {
+        match self.row.each {
+            Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
+            Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar => {
+                &scene.boundaries[self.at.boundary.index()].name
+            }
+            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
+            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[self.at.place()].name,
+            Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[self.at.place()].name,
+            Each::Insertion => &scene.insertions[self.at.place()].name,
+            Each::Outlet => &scene.outlets[self.at.place()].name,
+            Each::Meter => &scene.meters[self.at.place()].name,
+            Each::Probe | Each::ProbeAxis => &scene.probes[self.at.place()].name,
+        }
+    }
+
+    /// What it is: of the component and the node or other element with these names.
+    fn description(self, scene: &Scene, component: &str, element: &str) -> String {
+        let (owner, described) = (self.owner(scene), self.row.description.replace("{axis}", component));
+        let described = described.replace("{element}", element);
+        described.replace("{boundary}", owner).replace("{region}", owner).replace("{owner}", owner)
+    }
+
     /// The variable.
     fn variable(self, scene: &Scene) -> Variable {
         let Self { row, at } = self;
-        let owner = match row.each {
-            Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
-            Each::Boundary | Each::Axis | Each::Node => &scene.boundaries[at.boundary.index()].name,
-            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
-            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
-            Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[at.place()].name,
-            Each::Insertion => &scene.insertions[at.place()].name,
-            Each::Outlet => &scene.outlets[at.place()].name,
-            Each::Meter => &scene.meters[at.place()].name,
-            Each::Probe | Each::ProbeAxis => &scene.probes[at.place()].name,
-        };
+        let owner = self.owner(scene);
         let own = row.each.names(scene)[at.axis()];
         let number = (at.element() + 1).to_string();
         let element = row.each.element().map(|kind| format!("{kind}[{number}]")).unwrap_or_default();
         let parts = [owner, &element, row.name, own].into_iter().filter(|part| !part.is_empty());
-        let described = row.description.replace("{axis}", own).replace("{element}", &number);
         Variable {
             name: parts.collect::<Vec<_>>().join("."),
-            description: described.replace("{boundary}", owner).replace("{region}", owner).replace("{owner}", owner),
+            description: self.description(scene, own, &number),
             quantity: row.quantity,
             causality: if row.write.is_some() { Causality::Input } else { Causality::Output },
             variability: row.variability,

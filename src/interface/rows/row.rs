@@ -37,6 +37,8 @@ pub(in crate::interface) enum Each {
     Fluid,
     /// One for the fluid and each axis: `<fluid>.<name>.<axis>`.
     FluidAxis,
+    /// One for each node that moves by itself: `<boundary>.node[<number>].<name>`.
+    NodeScalar,
     /// One for each insertion: `<insertion>.<name>`.
     Insertion,
     /// One for each outlet: `<outlet>.<name>`.
@@ -81,7 +83,7 @@ impl Each {
     /// What an element of it is called, of which there are many, each with a number.
     pub(super) fn element(self) -> Option<&'static str> {
         match self {
-            Self::Node => Some("node"),
+            Self::Node | Self::NodeScalar => Some("node"),
             Self::Cell | Self::CellAxis | Self::CellComponent | Self::CellSet => Some("cell"),
             _ => None,
         }
@@ -97,6 +99,7 @@ impl Each {
             Self::Scene
             | Self::Boundary
             | Self::Fluid
+            | Self::NodeScalar
             | Self::Region
             | Self::Cell
             | Self::CellSet

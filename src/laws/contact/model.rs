@@ -25,7 +25,7 @@ pub struct ModelRow<F> {
     /// What it remembers of a contact.
     pub(super) history: Option<HistoryRow>,
     /// What of a contact it looks at.
-    pub(super) needs: Needs,
+    pub(crate) needs: Needs,
     /// The type of what it computes.
     form: fn() -> TypeId,
     /// The type of its keys.
@@ -186,6 +186,8 @@ pub struct NormalFunctions {
     pub(crate) elastic_spheres: bool,
     /// [`NormalForm::contact_radius`].
     pub(crate) contact_radius: fn(&[f64], f64, f64) -> f64,
+    /// The same of a batch of contacts.
+    pub(crate) run_contact_radius: Run,
     /// What it does to a batch of contacts.
     pub(crate) run: Run,
     /// The same where the force is taken from an offset.
@@ -234,6 +236,7 @@ impl NormalRow {
                     contact_radius: |row, overlap, radius| {
                         M::Form::contact_radius(M::Form::lanes(row), overlap, radius)
                     },
+                    run_contact_radius: batch::contact_radius::<M::Form>,
                     run: batch::normal::<M::Form, false>,
                     run_from_offset: batch::normal::<M::Form, true>,
                 },
@@ -525,6 +528,8 @@ pub struct HeatFunctions {
     between: fn(Kept, &MaterialPair) -> Result<Vec<f64>, Missing>,
     /// [`Heat::conductance`].
     pub(crate) conductance: fn(&[f64], &Spot) -> f64,
+    /// The same of a batch of contacts.
+    pub(crate) run: Run,
 }
 
 impl HeatRow {
@@ -536,7 +541,7 @@ impl HeatRow {
                 active: true,
                 count: M::COUNT,
                 history: None,
-                needs: Needs::NONE,
+                needs: M::NEEDS,
                 form: TypeId::of::<M>,
                 keys: TypeId::of::<M::Keys>,
                 properties: [M::PAIR_PROPERTIES, M::MATERIAL_PROPERTIES],
@@ -544,6 +549,7 @@ impl HeatRow {
                 does: HeatFunctions {
                     between: |keys, pair| Ok(numbers(&M::between(pair, own(keys))?)),
                     conductance: |row, spot| M::conductance(M::lanes(row), spot),
+                    run: batch::conductance::<M>,
                 },
             }
         }

@@ -3,10 +3,11 @@
 use super::whole_laws;
 use crate::base::lanes::Width;
 use crate::laws::contact::batch::{
-    EntryEvaluation, MOST_COEFFICIENTS, Run, Stage, before_sub_models, book_bonded, book_open, book_released,
-    keep_before, part, undeform_arms,
+    CoefficientRows, Conducting, EntryEvaluation, MOST_COEFFICIENTS, Run, Stage, before_sub_models, book_bonded,
+    book_open, book_released, keep_before, part, undeform_arms,
 };
-use crate::laws::contact::{Booked, Law, Needs};
+use crate::laws::contact::{Adhesion, Booked, Law, Needs};
+use crate::scene::Scene;
 
 /// A contact law and its functions over batches.
 pub(crate) struct BatchLaw {
@@ -22,6 +23,20 @@ pub(crate) struct BatchLaw {
     released: Vec<Run>,
     /// What a book of losses has to know of it.
     pub(super) booked: Booked,
+    /// What conducts heat, if anything does.
+    heat: Option<Conduction>,
+}
+
+/// A heat model as batches see it.
+struct Conduction {
+    /// Its functions and those of the normal model.
+    runs: [Run; 2],
+    /// Its coefficients for each two materials, row by row.
+    numbers: Vec<f64>,
+    /// How many a row has.
+    count: usize,
+    /// Whether bodies that have touched conduct as long as they hold together.
+    beyond_touch: bool,
 }
 
 impl BatchLaw {
@@ -33,6 +48,30 @@ impl BatchLaw {
             batch_law.open = vec![run];
         }
         batch_law
+    }
+
+    /// The law of this index in a scene, and what it conducts.
+    pub(crate) fn of_scene(scene: &Scene, index: usize) -> Self {
+        let (mut batch_law, contact) = (Self::of(scene.law(index)), &scene.contacts[index]);
+        if let Some(model) = contact.heat {
+            let (normal, heat) = (&contact.choice.normal.row().does, model.row());
+            batch_law.needs = batch_law.needs.and(heat.needs);
+            batch_law.heat = Some(Conduction {
+                runs: [normal.run_contact_radius, heat.does.run],
+                numbers: contact.heat_rows(scene).concat(),
+                count: model.count(),
+                beyond_touch: normal.adhesion() == Adhesion::BeyondTouch,
+            });
+        }
+        batch_law
+    }
+
+    /// What it conducts between bodies, whose row of coefficients is this one where all entries have the same.
+    pub(crate) fn conducting(&self, uniform: Option<u32>) -> Option<Conducting<'_>> {
+        let Conduction { runs, numbers, count, beyond_touch } = self.heat.as_ref()?;
+        let uniform = uniform.map(|row| &numbers[row as usize * count..(row as usize + 1) * count]);
+        let table = CoefficientRows { numbers, count: *count };
+        Some(Conducting { runs: *runs, table, uniform, beyond_touch: *beyond_touch })
     }
 
     /// The same, sub-model by sub-model even where the law is compiled whole.
@@ -51,7 +90,7 @@ impl BatchLaw {
                 }
             }
         }
-        Self { open, bonded, released, booked, law, needs }
+        Self { open, bonded, released, booked, law, needs, heat: None }
     }
 
     /// Whether it is compiled whole.

@@ -31,7 +31,7 @@ use crate::laws::contact::Needs;
 pub(crate) use crate::laws::contact::batch::{
     Buffer, ContactGeometry, Entries, FOUND, Followed, Parted, SpherePair, Touching, Trace,
 };
-use crate::laws::contact::batch::{EntryEvaluation, Stage};
+use crate::laws::contact::batch::{Conducting, EntryEvaluation, Stage};
 pub(crate) use deepest::DeepestSearch;
 pub(crate) use law::BatchLaw;
 pub(crate) use lost::Lost;
@@ -99,6 +99,9 @@ pub(crate) trait Bodies: Copy {
     /// Adds heat \[J\] that two bodies share to them.
     fn warm(&self, first: u32, second: u32, heat: f64, sum: &mut Self::Sum);
 
+    /// Lets heat flow between the bodies of some entries over these conductances \[W/K\], one by one.
+    fn conduct(&self, entries: [&[u32]; 2], conductance: &[f64], sum: &mut Self::Sum);
+
     /// Adds the loads of touching entries to their bodies, one by one.
     fn spread(&self, touching: &Touching, needs: Needs, sum: &mut Self::Sum);
 }
@@ -146,6 +149,8 @@ pub(crate) struct Batches<'a, B> {
     pub deepest: &'a DeepestSearch,
     /// Whether contacts are followed one by one.
     pub follows: bool,
+    /// What conducts heat, if anything does.
+    pub conducting: Option<Conducting<'a>>,
 }
 
 impl<B: Bodies> Batches<'_, B> {
@@ -228,6 +233,14 @@ impl<B: Bodies> Batches<'_, B> {
             let is_suppressed = matches!(manner, Some(EntryEvaluation::Followed));
             if self.meet(needs, buffer) && !is_suppressed {
                 self.deepest.look(&bodies, buffer);
+            }
+            // What a bond suppresses conducts in the stage of heat: few of it are evaluated here.
+            if let Some(conducting) = &self.conducting
+                && !matches!(manner, Some(EntryEvaluation::Bonded | EntryEvaluation::Followed))
+            {
+                conducting.find(width, self.stage(buffer));
+                let ends = [&buffer.first[..buffer.ready], &buffer.second[..buffer.ready]];
+                bodies.conduct(ends, buffer.conductance(), sum);
             }
             let stage = &mut self.stage(buffer);
             for run in runs {

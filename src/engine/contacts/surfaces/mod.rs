@@ -24,8 +24,9 @@ use crate::engine::contacts::batches::{BatchLaw, Batches, Bodies, DeepestSearch,
 use crate::engine::contacts::coefficients::{CoefficientTable, MaterialRow};
 use crate::engine::contacts::encounters::{self, Encounters};
 use crate::engine::run_error::{Cause, RunError};
+use crate::engine::state::heat::{BoundaryHeat, Level, NodesHeat};
 use crate::engine::state::ledger::Source;
-use crate::engine::state::{BoundaryState, Deepest, Named, Nodes, State, StateFault, WallContacts};
+use crate::engine::state::{BoundaryState, Deepest, Named, Nodes, Row, State, StateFault, WallContacts};
 use crate::engine::transfer::takes_heat;
 use crate::laws::surface::{self, Deforming};
 use crate::scene::{Boundary, Outside, Scene, Shape};
@@ -116,6 +117,8 @@ struct Work<'a> {
     boundaries: &'a [BoundaryState],
     /// Nodes of meshes.
     nodes: &'a [Nodes],
+    /// Temperatures of boundaries and of their nodes; empty where no heat flows.
+    heat: (&'a [BoundaryHeat], &'a [NodesHeat]),
     /// Particles.
     particles: ParticleLoads<'a>,
     /// How they came to where they are.
@@ -124,8 +127,17 @@ struct Work<'a> {
     deepest: &'a [DeepestSearch],
     /// Whether a boundary went so far in the present time step that what it went over may not be near it any more.
     far: bool,
+    /// Whether heat flows now.
+    conducts: bool,
     /// The threads.
     context: &'a Context<'a>,
+}
+
+impl Work<'_> {
+    /// The temperature of a boundary; zeros where heat does not flow.
+    fn level(&self, boundary: u32) -> Level {
+        self.heat.0.get(boundary as usize).map_or([0.0; 2], BoundaryHeat::level)
+    }
 }
 
 impl AtSurface {
@@ -161,7 +173,7 @@ impl AtSurface {
             follower: SurfaceFollower::of(scene, boundary),
             kept_rows: scene.kept_rows(law).len(),
             table: CoefficientTable::of(choice, scene),
-            law: BatchLaw::of(scene.law(law)),
+            law: BatchLaw::of_scene(scene, law),
         }
     }
 
@@ -180,7 +192,7 @@ impl AtSurface {
         let list = &work.walls[self.index];
         match &self.touched {
             Touched::Plane(plane) => {
-                let bodies = self.at_plane(plane, (list, work.boundaries), work.particles);
+                let bodies = self.at_plane(plane, list, work);
                 let [from, to] =
                     [slots.start, slots.end].map(|end| bodies.particle.partition_point(|&slot| (slot as usize) < end));
                 let batches = self.batches(bodies, work.entries[self.index], work);
@@ -193,16 +205,12 @@ impl AtSurface {
     }
 
     /// The particles of its list at this plane, where it stands.
-    fn at_plane<'a>(
-        &self,
-        plane: &Plane,
-        (list, boundaries): (&'a WallContacts, &[BoundaryState]),
-        particles: ParticleLoads<'a>,
-    ) -> AtPlane<'a> {
-        let boundary = &boundaries[list.boundary as usize];
+    fn at_plane<'a>(&self, plane: &Plane, list: &'a WallContacts, work: &Work<'a>) -> AtPlane<'a> {
+        let boundary = &work.boundaries[list.boundary as usize];
         let (plane, pivot) = (plane.at(boundary), self.reference + boundary.displacement.into());
         let (material, share_of_heat) = (self.material, self.share_of_heat);
-        AtPlane { plane, pivot, particle: &list.particle, material, share_of_heat, particles }
+        let (level, particles) = (work.level(list.boundary), work.particles);
+        AtPlane { plane, pivot, particle: &list.particle, material, share_of_heat, level, particles }
     }
 
     /// Evaluates a piece of a list.
@@ -231,6 +239,11 @@ impl AtSurface {
             width: work.context.width,
             deepest: &work.deepest[self.index],
             follows: self.follower.is_some(),
+            // What is adiabatic takes none of the losses either.
+            conducting: self
+                .law
+                .conducting(self.table.uniform_entry_with(self.material))
+                .filter(|_| work.conducts && self.share_of_heat > 0.0),
         }
     }
 
@@ -258,7 +271,9 @@ impl AtSurface {
                 load.lost.book(&self.law.law, losses);
             }
             if let Some(heat) = &mut state.heat {
-                heat.boundaries[number].of_losses += load.heat;
+                let boundary = &mut heat.boundaries[number];
+                boundary.of_losses += load.heat;
+                boundary.takes(load.heat_flow);
             }
         }
         match behind {
@@ -305,15 +320,20 @@ impl Pass for SurfacePass {
         workspace.deepest.resize_with(count, || DeepestSearch::beyond(state.deepest.overlap));
         let particles = state.particles.len();
         let far = context.step > 0.0 && self.passing.went_far(state);
+        let (mut of_losses, mut present): (&mut [f64], &mut [Row]) = (&mut [], &mut []);
+        let mut warm: (&[BoundaryHeat], &[NodesHeat]) = (&[], &[]);
+        if let Some(heat) = &mut state.heat {
+            (of_losses, present) = (&mut heat.of_losses, &mut heat.slots);
+            warm = (&heat.boundaries, &heat.nodes);
+        }
         let work = Work {
+            conducts: !present.is_empty(),
+            heat: warm,
             walls: &state.walls,
             entries: &workspace.entries,
             boundaries: &state.boundaries,
             nodes: &state.nodes,
-            particles: ParticleLoads::of(
-                &mut state.particles,
-                state.heat.as_mut().map_or(&mut [], |heat| &mut heat.of_losses),
-            ),
+            particles: ParticleLoads::of(&mut state.particles, of_losses, present),
             passing: &self.passing,
             deepest: &workspace.deepest,
             far,
@@ -343,6 +363,7 @@ impl Pass for SurfacePass {
             }
             result = result.and(surface.book(state, workspace.loads.iter().skip(place).step_by(count)));
         }
+        state.through.look(&state.contacts, &state.particles, state.clock.time);
         result
     }
 
@@ -393,14 +414,15 @@ impl Pass for SurfacePass {
                 }));
             }
         }
+        self.find_separated(state);
     }
 }
 
 impl Stiffness for SurfacePass {
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, context: &Context, tell: &mut dyn FnMut(Link)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {
-                Some(list) => listed::stiffness(&list, state, ahead, tell),
+                Some(list) => listed::stiffness(&list, state, ahead, context, tell),
                 None => surface.stiffness_at_features(state, ahead, tell),
             }
         }
@@ -445,14 +467,14 @@ impl Telling for SurfacePass {
         }
     }
 
-    fn touched(&self, state: &State, tell: &mut dyn FnMut(SurfaceTouch)) {
+    fn touched(&self, (state, flags): (&State, u8), tell: &mut dyn FnMut(SurfaceTouch)) {
         for surface in &self.surfaces {
             let (boundary, law) = (surface.list(state).boundary, surface.law_index);
             match surface.plane_list(state) {
-                Some(list) => listed::touched(&list, state, &mut |slot, overlap| {
+                Some(list) => listed::touched(&list, (state, flags), &mut |slot, overlap| {
                     tell(SurfaceTouch { slot, boundary, law, overlap, weight: 1.0 });
                 }),
-                None => surface.touched_at_features(state, &mut |slot, overlap, weight| {
+                None => surface.touched_at_features((state, flags), &mut |slot, overlap, weight| {
                     tell(SurfaceTouch { slot, boundary, law, overlap, weight });
                 }),
             }

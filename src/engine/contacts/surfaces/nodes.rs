@@ -4,6 +4,7 @@ use super::{AtSurface, Touched};
 use crate::base::lanes::{Lane, Shared, vector};
 use crate::base::number::Vector;
 use crate::engine::run_error::RunError;
+use crate::engine::state::heat::{BoundaryHeat, Level};
 use crate::engine::state::{Nodes, Row, State};
 use crate::laws::surface::{Deforming, Foot, NodeWeights};
 use std::sync::PoisonError;
@@ -60,6 +61,10 @@ pub(super) struct Held {
     force: Vec<Row>,
     /// Rolling torques on the surface \[N m\].
     couple: Vec<Row>,
+    /// Temperatures of the surface at the feet, where its nodes have one.
+    level: Vec<Level>,
+    /// Heat flows into the surface \[W\], conductances \[W/K\] and heat of losses \[J\].
+    heat: Vec<[f64; 3]>,
 }
 
 impl Held {
@@ -72,11 +77,19 @@ impl Held {
         self.behind.clear();
         self.force.clear();
         self.couple.clear();
+        self.level.clear();
+        self.heat.clear();
     }
 
     /// Adds a contact: its foot, the normal in global axes, and a particle with this centre in the axes of the surface.
-    pub(super) fn push(&mut self, moving: &Moving, (foot, normal): (&Foot, Vector), centre: Vector, radius: f64) {
-        let behind = behind(foot, normal, radius);
+    pub(super) fn push(
+        &mut self,
+        (moving, warm): (&Moving, &[BoundaryHeat]),
+        (foot, normal): (&Foot, Vector),
+        centre: Vector,
+        radius: f64,
+    ) {
+        let (behind, from) = (behind(foot, normal, radius), self.grips.len());
         let [velocity, spin] = moving.at(foot, centre, behind, &mut self.grips);
         self.ends.push(self.grips.len() as u32);
         self.velocity.push(velocity.row_with(0.0));
@@ -84,6 +97,14 @@ impl Held {
         self.behind.push(behind);
         self.force.push([0.0; 4]);
         self.couple.push([0.0; 4]);
+        if !warm.is_empty() {
+            let share = |[t, rise]: Level, grip: &NodeWeights| {
+                let node = warm[grip.node as usize].level();
+                [t + grip.weight() * node[0], rise + grip.weight() * node[1]]
+            };
+            self.level.push(self.grips[from..].iter().fold([0.0; 2], share));
+            self.heat.push([0.0; 3]);
+        }
     }
 
     /// The columns that a batch reads and writes.
@@ -93,6 +114,21 @@ impl Held {
             spin: &self.spin,
             force: Shared::new(&mut self.force),
             couple: Shared::new(&mut self.couple),
+            level: &self.level,
+            heat: Shared::new(&mut self.heat),
+        }
+    }
+
+    /// Shares the heat into the surface out on its nodes.
+    fn share_heat_out(&self, nodes: &mut [BoundaryHeat]) {
+        let mut from = 0;
+        for (&[flow, conductance, of_losses], &end) in self.heat.iter().zip(&self.ends) {
+            for grip in &self.grips[from..end as usize] {
+                let (node, weight) = (&mut nodes[grip.node as usize], grip.weight());
+                node.takes([weight * flow, weight * conductance]);
+                node.of_losses += weight * of_losses;
+            }
+            from = end as usize;
         }
     }
 
@@ -123,6 +159,10 @@ pub(super) struct HeldColumns<'a> {
     force: Shared<Row>,
     /// Rolling torques on the surface.
     couple: Shared<Row>,
+    /// Temperatures of the surface; empty where its nodes have none.
+    level: &'a [Level],
+    /// What of heat it takes.
+    heat: Shared<[f64; 3]>,
 }
 
 impl HeldColumns<'_> {
@@ -135,6 +175,34 @@ impl HeldColumns<'_> {
         // SAFETY: the caller's promise.
         unsafe {
             [N::load_rows(self.velocity.as_ptr(), numbers), N::load_rows(self.spin.as_ptr(), numbers)].map(vector)
+        }
+    }
+
+    /// Temperature of the surface at a contact, if its nodes have one.
+    pub(super) fn level(&self, number: usize) -> Option<Level> {
+        self.level.get(number).copied()
+    }
+
+    /// Notes heat flow into the surface \[W\] and conductance \[W/K\] of a contact.
+    ///
+    /// # Safety
+    /// The contact belongs to the piece of work that asks.
+    pub(super) unsafe fn take(&self, number: usize, [flow, conductance]: [f64; 2]) {
+        if number < self.level.len() {
+            // SAFETY: the caller's promise.
+            let [into, sum, _] = unsafe { self.heat.at(number) };
+            (*into, *sum) = (*into + flow, *sum + conductance);
+        }
+    }
+
+    /// Notes heat of losses into the surface at a contact \[J\].
+    ///
+    /// # Safety
+    /// As for [`HeldColumns::take`].
+    pub(super) unsafe fn warm(&self, number: usize, heat: f64) {
+        if number < self.level.len() {
+            // SAFETY: the caller's promise.
+            unsafe { self.heat.at(number)[2] += heat };
         }
     }
 
@@ -163,11 +231,14 @@ impl AtSurface {
     }
 
     /// Shares the loads of the pieces out on the nodes, in order.
-    pub(super) fn load_nodes<'a>(&self, state: &mut State, pieces: impl Iterator<Item = &'a Held>) {
+    pub(super) fn load_nodes<'a>(&self, state: &mut State, pieces: impl Iterator<Item = &'a Held> + Clone) {
         let Touched::Nodes(_) = &self.touched else { return };
         let boundary = self.list(state).boundary as usize;
         if let Some(nodes) = state.nodes_of_mut(boundary) {
-            pieces.for_each(|piece| piece.share_out(&mut nodes.force));
+            pieces.clone().for_each(|piece| piece.share_out(&mut nodes.force));
+        }
+        if let Some(nodes) = state.heat.as_mut().and_then(|heat| heat.nodes_of_mut(boundary)) {
+            pieces.for_each(|piece| piece.share_heat_out(nodes));
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::engine::contacts::batches::{Bodies, ContactGeometry, FOUND, Touching}
 use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::contacts::listed::{self, ContactEntries, CurrentContact, ListColumns};
 use crate::engine::contacts::records::Motion;
+use crate::engine::state::heat::Level;
 use crate::engine::state::{BoundaryState, State, WallContacts};
 use crate::laws::contact::{Contact, Law, Needs};
 
@@ -70,6 +71,8 @@ pub(super) struct AtPlane<'a> {
     pub(super) material: u32,
     /// Which share of the heat of losses the surface takes.
     pub(super) share_of_heat: f64,
+    /// Its temperature.
+    pub(super) level: Level,
     /// The particles.
     pub(super) particles: ParticleLoads<'a>,
 }
@@ -135,6 +138,13 @@ impl Bodies for AtPlane<'_> {
     fn warm(&self, first: u32, _second: u32, heat: f64, load: &mut Load) {
         // SAFETY: each particle is in one piece, and each piece is worked on by one thread.
         unsafe { self.particles.warm(first, heat, self.share_of_heat, load) };
+    }
+
+    fn conduct(&self, [first, _]: [&[u32]; 2], conductance: &[f64], load: &mut Load) {
+        for (&slot, &conductance) in first.iter().zip(conductance) {
+            // SAFETY: as above.
+            unsafe { self.particles.conduct(slot, self.level, conductance, load) };
+        }
     }
 
     #[inline(always)]

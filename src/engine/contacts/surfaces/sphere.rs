@@ -4,6 +4,7 @@ use crate::base::lanes::{Lane, Shared, vector};
 use crate::base::number::{Number, Vector, add, subtract};
 use crate::engine::boundaries::passing::MovedParticles;
 use crate::engine::contacts::batches::{ContactGeometry, Lost};
+use crate::engine::state::heat::{Level, exchange};
 use crate::engine::state::{Particles, Row};
 use crate::laws::contact::{Contact, Needs};
 use std::f64::consts::PI;
@@ -102,13 +103,16 @@ pub(super) struct ParticleLoads<'a> {
     torque: Shared<Row>,
     /// Heat of losses \[J\]; empty where none warms the particles.
     heat: Shared<f64>,
+    /// Temperatures and heat flows; empty where nothing conducts.
+    present: Shared<Row>,
 }
 
 impl<'a> ParticleLoads<'a> {
-    /// The particles of a state, and heat that losses give to them \[J\].
-    pub(super) fn of(particles: &'a mut Particles, heat: &'a mut [f64]) -> Self {
+    /// The particles of a state, heat that losses give to them \[J\], and their temperatures and heat flows.
+    pub(super) fn of(particles: &'a mut Particles, heat: &'a mut [f64], present: &'a mut [Row]) -> Self {
         let (force, torque) = (Shared::new(&mut particles.force), Shared::new(&mut particles.torque));
-        Self { force, torque, heat: Shared::new(heat), ..Self::looking(particles) }
+        let (heat, present) = (Shared::new(heat), Shared::new(present));
+        Self { force, torque, heat, present, ..Self::looking(particles) }
     }
 
     /// The particles of a state that is looked at alone: nothing is added to them.
@@ -122,6 +126,7 @@ impl<'a> ParticleLoads<'a> {
             force: Shared::new(&mut []),
             torque: Shared::new(&mut []),
             heat: Shared::new(&mut []),
+            present: Shared::new(&mut []),
         }
     }
 
@@ -133,6 +138,20 @@ impl<'a> ParticleLoads<'a> {
         // SAFETY: the caller's promise.
         unsafe { *self.heat.at(slot as usize) += heat * (1.0 - share) };
         load.heat += heat * share;
+    }
+
+    /// Lets heat flow between a particle and a surface of this temperature over a conductance \[W/K\]. Returns the flow into the surface \[W\].
+    ///
+    /// # Safety
+    /// The particle belongs to the piece of work that asks.
+    #[inline(always)]
+    pub(super) unsafe fn conduct(&self, slot: u32, level: Level, conductance: f64, load: &mut Load) -> f64 {
+        let mut surface = [level[0], level[1], 0.0, 0.0];
+        // SAFETY: the caller's promise.
+        unsafe { exchange([self.present.at(slot as usize), &mut surface], conductance) };
+        let [_, _, flow, sum] = surface;
+        load.heat_flow = [load.heat_flow[0] + flow, load.heat_flow[1] + sum];
+        flow
     }
 
     /// Velocities and, where there is torque, angular velocities of some particles.
@@ -208,6 +227,8 @@ pub(super) struct Load {
     pub(super) lost: Lost,
     /// What of it warms the surface \[J\].
     pub(super) heat: f64,
+    /// Heat flow into the surface \[W\], and the sum of the conductances \[W/K\].
+    pub(super) heat_flow: [f64; 2],
     /// A particle (slot) whose centre is behind the surface, or went through it.
     pub(super) behind: Option<u32>,
 }

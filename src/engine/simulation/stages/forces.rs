@@ -36,11 +36,11 @@ impl Simulation {
         workspace.between.begin();
     }
 
-    /// Makes room for the heat of what contacts are about to lose.
-    pub(super) fn begin_heat_of_losses(&mut self) {
-        let Simulation { state, .. } = self;
-        if let Some(heat) = &mut state.heat {
-            heat.collect(state.particles.len());
+    /// Gives contacts the temperatures between which heat flows, and room for what they are about to lose.
+    pub(super) fn begin_heat(&mut self, context: &Context) {
+        let Self { transfer, scene, passes, state, .. } = self;
+        if let Some(transfer) = transfer {
+            transfer.prepare((scene, passes), state, context);
         }
     }
 

@@ -19,10 +19,10 @@ impl Simulation {
     }
 
     /// Finds what conducts now, before anything flows.
-    pub(in crate::engine::simulation) fn look_at_heat(&mut self, context: &Context) {
+    pub(in crate::engine::simulation) fn look_at_heat(&mut self) {
         let Self { transfer, scene, passes, state, .. } = self;
         if let Some(transfer) = transfer {
-            transfer.look((scene, passes), state, context);
+            transfer.look((scene, passes), state);
             transfer::tell(scene, state);
         }
     }

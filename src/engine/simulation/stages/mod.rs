@@ -65,7 +65,7 @@ pub enum Part {
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 15] = [
         Self::Places,
         Self::Motions,
         Self::Loads,

@@ -129,12 +129,12 @@ const FORCES: &[Stage] = &[
         run: |it, _| it.begin_loads(),
     },
     Stage {
-        name: "heat of losses",
-        scenes: "losses that warm",
-        is_needed: |it| it.scene.heat.warms(),
-        reads: &[Particles],
+        name: "temperatures",
+        scenes: "temperatures",
+        is_needed: |it| it.scene.has_heat(),
+        reads: &[Places, Particles, Contacts, Boundaries],
         writes: &[Heat],
-        run: |it, _| it.begin_heat_of_losses(),
+        run: |it, step| it.begin_heat(step.context),
     },
     Stage {
         name: "streaming motion",

@@ -6,6 +6,7 @@
 mod buffer;
 mod entries;
 mod gathered;
+mod heat;
 mod losses;
 mod sphere_pair;
 mod stage;
@@ -19,6 +20,7 @@ use crate::base::number::Row;
 pub(crate) use buffer::{BATCH, Buffer};
 pub(crate) use entries::Entries;
 pub(crate) use gathered::Gathered;
+pub(crate) use heat::{Conducting, conductance, contact_radius};
 pub(crate) use losses::{book, book_bonded, book_open, book_released, keep_before};
 pub(crate) use sphere_pair::SpherePair;
 pub(crate) use stage::{FrictionResult, Stage};

@@ -3,7 +3,7 @@
 use super::Spot;
 use crate::base::number::Number;
 use crate::base::quantity::Positive;
-use crate::laws::contact::{Heat, MaterialPair, Missing, coefficients};
+use crate::laws::contact::{Heat, MaterialPair, Missing, Needs, coefficients};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::f64::consts::PI;
@@ -97,6 +97,7 @@ pub struct Keys {
 impl Heat for OverlapArea {
     const NAME: &'static str = "overlap_area";
     type Keys = Keys;
+    const NEEDS: Needs = Needs { section: true, ..Needs::NONE };
 
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Self, Missing> {
         let radius = pair.real_contact_radius()?;

@@ -36,6 +36,11 @@ impl NodeWeights {
         [velocity * self.weight, Vector::from(self.turn.map(|row| row.dot(velocity)))]
     }
 
+    /// Its share of what the surface has at the foot; the shares of all nodes add up to 1.
+    pub fn weight(&self) -> f64 {
+        self.weight
+    }
+
     /// Its part of a force \[N\] and a couple \[N m\] at the foot \[N\].
     pub fn load(&self, force: Vector, couple: Vector) -> Vector {
         let [x, y, z] = self.turn;

@@ -8,6 +8,7 @@ use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::contacts::surfaces::nodes::HeldColumns;
 use crate::engine::contacts::surfaces::sphere::{Load, ParticleLoads, SphereAt, along};
 use crate::engine::state::Row;
+use crate::engine::state::heat::Level;
 use crate::laws::contact::Needs;
 
 /// Particles at their feet on a surface. The second body of an entry is the number of its foot.
@@ -29,6 +30,8 @@ pub(super) struct AtFeet<'a> {
     pub(super) material: u32,
     /// Which share of the heat of losses the surface takes.
     pub(super) share_of_heat: f64,
+    /// Its temperature, where its nodes have none.
+    pub(super) level: Level,
     /// The particles.
     pub(super) particles: ParticleLoads<'a>,
 }
@@ -88,9 +91,29 @@ impl Bodies for AtFeet<'_> {
         table.entry(self.particles.material[first as usize], self.material)
     }
 
-    fn warm(&self, first: u32, _second: u32, heat: f64, load: &mut Load) {
+    fn warm(&self, first: u32, second: u32, heat: f64, load: &mut Load) {
         // SAFETY: each particle is in one piece, and each piece is worked on by one thread.
-        unsafe { self.particles.warm(first, heat, self.share_of_heat, load) };
+        unsafe {
+            self.particles.warm(first, heat, self.share_of_heat, load);
+            if let Some(held) = self.held {
+                held.warm(second as usize, heat * self.share_of_heat);
+            }
+        }
+    }
+
+    fn conduct(&self, [first, second]: [&[u32]; 2], conductance: &[f64], load: &mut Load) {
+        for ((&slot, &number), &conductance) in first.iter().zip(second).zip(conductance) {
+            let number = number as usize;
+            let conductance = self.weight.get(number).map_or(conductance, |[weight, _]| conductance * weight);
+            // SAFETY: as above.
+            unsafe {
+                let level = self.held.and_then(|held| held.level(number)).unwrap_or(self.level);
+                let flow = self.particles.conduct(slot, level, conductance, load);
+                if let Some(held) = self.held {
+                    held.take(number, [flow, conductance]);
+                }
+            }
+        }
     }
 
     #[inline(always)]

@@ -9,6 +9,7 @@ mod at_feet;
 mod columns;
 mod on_planes;
 mod standing;
+mod through;
 mod together;
 mod told;
 
@@ -45,7 +46,11 @@ impl AtSurface {
     pub(super) fn piece_at_features(&self, work: &Work, slots: Range<usize>, contacts: &mut FeatureContacts) -> Load {
         let boundary = work.walls[self.index].boundary as usize;
         let nodes = work.nodes.iter().find(|nodes| nodes.boundary as usize == boundary);
-        let evaluate = |at: MovingSurface| self.piece_at(at, work, slots, contacts);
+        let evaluate = |at: MovingSurface| {
+            let warm = work.heat.1.iter().find(|nodes| nodes.boundary as usize == boundary);
+            let warm = warm.map_or(&[][..], |nodes| &nodes.each);
+            self.piece_at(MovingSurface { warm, ..at }, work, slots, contacts)
+        };
         MovingSurface::with(self, (&work.boundaries[boundary], nodes), evaluate).unwrap_or_default()
     }
 
@@ -76,8 +81,8 @@ impl AtSurface {
         // SAFETY: the entries are those of this piece.
         unsafe { entries.flags.part(0, count) }.fill(0);
         let held = at.moving.map(|_| held.columns());
-        let (material, share_of_heat) = (self.material, self.share_of_heat);
-        let bodies = AtFeet { at, particle, number, foot, weight, held, material, share_of_heat, particles };
+        let (material, share_of_heat, level) = (self.material, self.share_of_heat, work.level(list.boundary));
+        let bodies = AtFeet { at, particle, number, foot, weight, held, material, share_of_heat, level, particles };
         let load = self.run(&self.batches(bodies, entries, work), 0..count, traces);
         if self.follower.is_some() {
             let touched = TouchedFeatures { at: &at, particle, feature, foot, weight, particles };
@@ -267,7 +272,8 @@ impl SphereContacts<'_> {
     fn hold(&self, foot: &Foot, normal: Vector, held: &mut Held) {
         if let Some(moving) = &self.at.moving {
             let position = self.particles.position[self.slot as usize];
-            held.push(moving, (foot, normal), self.at.frame.inside(Vector::from(position)), position[3]);
+            let centre = self.at.frame.inside(Vector::from(position));
+            held.push((moving, self.at.warm), (foot, normal), centre, position[3]);
         }
     }
 }

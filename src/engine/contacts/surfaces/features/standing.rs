@@ -8,6 +8,7 @@ use crate::engine::contacts::batches::ContactGeometry;
 use crate::engine::contacts::surfaces::nodes::Moving;
 use crate::engine::contacts::surfaces::sphere::{SphereAt, along, lanes};
 use crate::engine::contacts::surfaces::{AtSurface, Touched};
+use crate::engine::state::heat::BoundaryHeat;
 use crate::engine::state::{BoundaryState, Nodes, Row};
 use crate::laws::contact::{Contact, Law, MOST_HISTORY};
 use crate::laws::surface::{Features, Feet, Foot, Surface};
@@ -34,13 +35,15 @@ pub(in crate::engine::contacts::surfaces) struct MovingSurface<'a> {
     pub(super) conveys: bool,
     /// Its nodes, where they move one by one.
     pub(super) moving: Option<Moving<'a>>,
+    /// Their temperatures; empty where they have none.
+    pub(super) warm: &'a [BoundaryHeat],
     /// How forces accelerate it, where they move it.
-    mobility: Option<Mobility>,
+    pub(super) mobility: Option<Mobility>,
 }
 
 /// How forces accelerate a surface.
 #[derive(Clone, Copy)]
-struct Mobility {
+pub(super) struct Mobility {
     /// Acceleration of the point of reference along x, y, z by a force \[1/kg\].
     along: Vector,
     /// Angular acceleration by a moment about x, y, z \[1/(kg m²)\].
@@ -90,7 +93,7 @@ impl<'a> MovingSurface<'a> {
         let (conveying, conveys) = (frame.outside(surface.conveying), surface.conveying != Vector::zero());
         let velocity = boundary.velocity.into();
         let mobility = surface.body.as_ref().map(|body| Mobility::of(body, boundary));
-        Self { features, frame, pivot, velocity, spin, turning, conveying, conveys, moving: None, mobility }
+        Self { features, frame, pivot, velocity, spin, turning, conveying, conveys, moving: None, warm: &[], mobility }
     }
 
     /// The surface of a boundary, whose nodes may move one by one, where it stands.

@@ -8,6 +8,7 @@ use crate::engine::contacts::batches::ContactGeometry;
 use crate::engine::contacts::encounters::Encounters;
 use crate::engine::contacts::records::{self, ContactRecord, Motion};
 use crate::engine::contacts::surfaces::AtSurface;
+use crate::engine::state::contacts::TOUCHING;
 use crate::engine::state::{Row, State};
 use crate::laws::contact::{MOST_HISTORY, Reaction};
 use crate::laws::surface::{Feet, Foot};
@@ -161,14 +162,17 @@ impl AtSurface {
     /// The same where it stands.
     fn encounters_at(&self, at: &MovingSurface, state: &State, found: &mut Encounters) {
         let (list, law, mut feet) = (self.list(state), &self.law.law, Feet::default());
+        let mut energies = found.energies;
         for (place, &slot) in list.near.particle.iter().enumerate() {
             let touches = || list.particle.binary_search(&slot).is_ok();
             let Some(meeting) = found.meeting(state, (slot, None), touches) else { continue };
             if let Some((_, geometry)) = self.nearest(at, state, (place, slot), &mut feet) {
                 let row = self.row(state, slot);
-                found.add(meeting, (law, row, &geometry.contact), state, (slot, None, Some(list.boundary)));
+                let bodies = (slot, None, Some(list.boundary));
+                found.add(&mut energies, meeting, (law, row, &geometry.contact), state, bodies);
             }
         }
+        found.energies = energies;
     }
 
     /// Elastic energy of the contacts with features \[J\].
@@ -200,16 +204,19 @@ impl AtSurface {
         held
     }
 
-    /// Tells the particle (slot), the overlap \[m\] and the weight of each contact with a feature.
+    /// Tells the particle (slot), the overlap \[m\] and the weight of each contact with a feature that has one of these flags.
     pub(in crate::engine::contacts::surfaces) fn touched_at_features(
         &self,
-        state: &State,
+        (state, flags): (&State, u8),
         tell: &mut dyn FnMut(u32, f64, f64),
     ) {
         let list = self.list(state);
-        self.each(state, Motion::Present, |entry, foot, _, ContactGeometry { contact, .. }| {
-            tell(list.particle[entry], contact.overlap, foot.weight);
-        });
+        // No bond suppresses a contact with a feature.
+        if flags & TOUCHING != 0 {
+            self.each(state, Motion::Present, |entry, foot, _, ContactGeometry { contact, .. }| {
+                tell(list.particle[entry], contact.overlap, foot.weight);
+            });
+        }
     }
 
     /// Largest overlap with a feature over the radius of the particle.
