@@ -47,6 +47,7 @@ WALLS = "".join(
 BOX = "box = [[0.3, 0.3, 0.3], [0.4, 0.4, 0.4]]"
 ADDED = {
     "region": f"[region.aside]\n{BOX}\n",
+    "grid": f"[grid.aside]\n{BOX}\ncounts = [10, 10, 10]\n",
     "insertion": f'[region.aside]\n{BOX}\n[insertion.feed]\nregion = "aside"\nmaterial = "glass"\nsizes = {{ radius = 0.005 }}\ncount_rate = 0.0\n',
     "outlet": f'[region.aside]\n{BOX}\n[outlet.drain]\nregion = "aside"\n',
     "flow meter": "[flow_meter.gate]\npolygon = [[0.3, 0.3, 0.3], [0.4, 0.3, 0.3], [0.4, 0.4, 0.3]]\n",

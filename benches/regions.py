@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""What a region costs: instructions of a time step of 20,000 spheres of a dense bed (scene s1_20k of peers.py) without a region, with one that
-nobody reads, and of each time that its outputs are read, for a box, a cylinder, and a ball of so many triangles.
+"""What a region or a grid costs: instructions of a time step of 20,000 spheres of a dense bed (scene s1_20k of peers.py) without one, with one that
+nobody reads, and of each time that its outputs are read, for a box, a cylinder, a ball of so many triangles, and grids about all grains.
 
 Counted by valgrind, so the load of the machine does not matter. Set-up is removed by two numbers of steps.
 """
 
 import argparse
+import json
 import math
 import re
 import subprocess
@@ -17,10 +18,14 @@ import peer_scenes
 ROOT = Path(__file__).resolve().parents[1]
 COUNTS = (50, 350)  # steps of the short and the long run
 EVERY = 10  # steps between rows of the history, where it is written
+GRID = "[grid.core]\nbox = [[{{10}}, {{12}}, {{14}}], [{{11}}, {{13}}, {{15}}]]\ncounts = [{0}, {0}, {0}]\noutputs = [{1}]"
 REGIONS = {
-    "box": "box = [[{0}, {2}, {4}], [{1}, {3}, {5}]]",
-    "cylinder": "cylinder = {{ from = [{6}, {7}, {4}], to = [{6}, {7}, {5}], radius = {8} }}",
-    "mesh": 'mesh = {{ file = "ball.obj", scale = {8}, offset = [{6}, {7}, {9}] }}',
+    "box": "[region.core]\nbox = [[{0}, {2}, {4}], [{1}, {3}, {5}]]",
+    "cylinder": "[region.core]\ncylinder = {{ from = [{6}, {7}, {4}], to = [{6}, {7}, {5}], radius = {8} }}",
+    "mesh": '[region.core]\nmesh = {{ file = "ball.obj", scale = {8}, offset = [{6}, {7}, {9}] }}',
+    "grid of 10³ cells, porosity": GRID.format(10, '"porosity"'),
+    "grid of 20³ cells, porosity": GRID.format(20, '"porosity"'),
+    "grid of 20³ cells, all": GRID.format(20, '"porosity", "density", "velocity", "stress", "granular_temperature", "count"'),
 }
 
 
@@ -45,10 +50,10 @@ def ball(path, around=100, high=51):
 
 
 def inner(walls):
-    """Numbers of a region that has half of each edge of the bed, in its middle."""
+    """Numbers of a region that has half of each edge of the bed, in its middle, then those of the bed."""
     bounds = [edge for low, high in walls for edge in (0.75 * low + 0.25 * high, 0.25 * low + 0.75 * high)]
     middle = [0.5 * (low + high) for low, high in walls]
-    return [*bounds, middle[0], middle[1], 0.25 * min(high - low for low, high in walls), middle[2]]
+    return [*bounds, middle[0], middle[1], 0.25 * min(high - low for low, high in walls), middle[2], *(place for wall in walls for place in wall)]
 
 
 def instructions(command, folder):
@@ -67,7 +72,7 @@ def main():
     numbers = inner(peer_scenes.box(scene))
 
     def each_step(region, rows):
-        """Instructions of a step, with a row of the history every so many steps, or none."""
+        """Instructions of a step, with a row of the history every so many steps, or none; a cell of a grid makes all of them."""
         counts = []
         for count in COUNTS:
             with tempfile.TemporaryDirectory() as name:
@@ -76,9 +81,10 @@ def main():
                 path = folder / f"{count}.toml"
                 text, step = path.read_text(), peer_scenes.time_step(scene)
                 if rows:
-                    text = re.sub("history_interval = .*", f"history_interval = {rows * step!r}", text)
+                    columns = ["time_step.current", *(["core.cell[1].*" if "grid" in region else "core.*"] if region else [])]
+                    text = re.sub("history_interval = .*", f"history_interval = {rows * step!r}\ncolumns = {json.dumps(columns)}", text)
                 if region:
-                    text += f"[region.core]\n{REGIONS[region].format(*numbers)}\n"
+                    text += f"{REGIONS[region].format(*numbers)}\n"
                     ball(folder / "ball.obj")
                 path.write_text(text)
                 counts.append(instructions([options.cograin, *arguments], folder))

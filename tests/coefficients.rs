@@ -1,8 +1,8 @@
 //! Coefficients of contact laws are state: they can be replaced between communication steps, and are saved and restored.
 
 use crate::support::scene;
-use cograin::contact::PairProperties;
-use cograin::quantity::{MaterialIndex, NonNegative};
+use cograin::contact::{Properties, property};
+use cograin::quantity::MaterialIndex;
 use cograin::scene::Scene;
 use cograin::simulation::Simulation;
 use cograin::state::State;
@@ -37,8 +37,8 @@ material = "a"
 }
 
 /// The properties of the scene with another coefficient of friction.
-fn with_friction(scene: &Scene, friction: f64) -> PairProperties {
-    PairProperties { friction: NonNegative::new(friction), ..scene.pairs[0] }
+fn with_friction(scene: &Scene, friction: f64) -> Properties {
+    scene.pairs[0].clone().with(&property::FRICTION, friction)
 }
 
 /// The pair of the only material.
@@ -86,7 +86,7 @@ fn a_missing_property_is_named_and_changes_nothing() {
     let scene = sliding(0.2);
     let mut simulation = Simulation::new(scene.clone()).unwrap();
     let before = simulation.state().fingerprint();
-    let bare = PairProperties { friction: None, ..scene.pairs[0] };
+    let bare = scene.pairs[0].clone().without(&property::FRICTION);
     let missing = simulation.set_pair_properties(PAIR, &bare).unwrap_err();
     assert_eq!((missing[0].table.as_str(), missing[0].key), ("pair.a.a", "friction"));
     assert_eq!(simulation.state().fingerprint(), before);

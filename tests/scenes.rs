@@ -2,6 +2,7 @@
 
 use cograin::bond::breakage::stress::StressLimits;
 use cograin::contact::Scheme;
+use cograin::contact::property::FRICTION;
 use cograin::quantity::{MaterialIndex, Positive};
 use cograin::scene::{AxisMotion, InputCourse, Scene, SceneDraft, Source, Step};
 use rand_chacha::ChaCha8Rng;
@@ -86,8 +87,8 @@ fn everything_written_arrives() {
     let names: Vec<&str> = scene.materials.iter().map(|material| material.name.as_str()).collect();
     assert_eq!(names, ["glass", "steel"]);
     assert_eq!(scene.pairs[1], scene.pairs[2]);
-    assert_eq!(scene.pairs[1].friction.unwrap().get(), 0.2);
-    assert_eq!(scene.pairs[3].friction, None);
+    assert_eq!(scene.pairs[1].get(&FRICTION), Some(0.2));
+    assert_eq!(scene.pairs[3].get(&FRICTION), None);
     assert_eq!(scene.contacts[0].between, [true, false, false, false]);
     assert_eq!(scene.contacts[1].between, [false, true, true, false]);
     assert_eq!(scene.contacts[0].choice.switches.least_force, 0.0);

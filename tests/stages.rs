@@ -30,6 +30,7 @@ from_losses = ["normal_damping", "tangential_damping", "sliding"]
 [output]
 energy = true
 losses = true
+impacts = {}
 "#;
 
 /// Everything that stands in no cell: what is there, what comes and goes, and what moves it.
@@ -133,6 +134,21 @@ edges = [[0.012, 0.0, 0.0], [0.0, 0.012, 0.0], [0.0, 0.0, 0.012]]
 motion = { driven = ["xy"], servo = { zz = { stress = -1e3, max_rate = 1.0 } } }
 "#;
 
+/// Grains in a fluid to and fro.
+const WATER: &str = r#"
+gravity = [0.0, 0.0, -9.81]
+LAWS
+[particles.loose]
+material = "a"
+temperature = 300.0
+list = [{ position = [0.0, 0.0, 0.002], radius = 0.002 }, { position = [0.0, 0.0, 0.00595], radius = 0.002 }]
+[fluid.water]
+density = 1000.0
+viscosity = 1e-3
+velocity = { prescribed = { x = { sine = { amplitude = 0.01, frequency = 10.0 } } } }
+[fluid.water.drag.stokes]
+"#;
+
 /// A scene with the laws.
 fn with_laws(scene: &str) -> Simulation {
     start(&scene.replace("LAWS", LAWS))
@@ -166,6 +182,8 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
                 && a.damping_impulse == b.damping_impulse
         }
         Part::Heat => a.heat == b.heat,
+        Part::Fluid => a.fluid == b.fluid,
+        Part::Traces => a.traces == b.traces,
         Part::Speed => a.clock.speed == b.clock.speed && a.foresight == b.foresight,
     }
 }
@@ -218,10 +236,10 @@ list = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.0, 0.0, 
 }
 
 #[test]
-fn a_scene_in_the_open_and_one_in_a_cell_have_every_stage() {
-    let [open, cell] = [OPEN, CELL].map(with_laws);
-    let both: BTreeSet<_> = names(&open).into_iter().chain(names(&cell)).collect();
-    let missing: Vec<_> = all_stages().map(|(_, stage)| stage.name).filter(|name| !both.contains(name)).collect();
+fn scenes_in_the_open_in_a_cell_and_in_water_have_every_stage() {
+    let scenes = [OPEN, CELL, WATER].map(with_laws);
+    let all: BTreeSet<_> = scenes.iter().flat_map(names).collect();
+    let missing: Vec<_> = all_stages().map(|(_, stage)| stage.name).filter(|name| !all.contains(name)).collect();
     assert!(missing.is_empty(), "{missing:?}");
 }
 
@@ -229,6 +247,7 @@ fn a_scene_in_the_open_and_one_in_a_cell_have_every_stage() {
 fn a_stage_writes_nothing_that_it_does_not_say() {
     let mut found = written(with_laws(OPEN), 600);
     found.extend(written(with_laws(CELL), 200));
+    found.extend(written(with_laws(WATER), 20));
     let said: BTreeSet<_> = all_stages()
         .flat_map(|(_, stage)| stage.writes.iter().map(move |part| (stage.name, format!("{part:?}"))))
         .collect();

@@ -23,6 +23,7 @@ ROOMS = {
     "bond/breakage": ("Breakage of bonds", "[bond.<name>.breakage.{}]"),
     "bond/damping": ("Damping of bonds", "[bond.<name>.damping.{}]"),
     "bond/formulation": ("Formulations of bonds", 'formulation = "{}"'),
+    "drag": ("Drag of fluids", "[fluid.<name>.drag.{}]"),
     "contact/cohesion": ("Cohesion", "[contact.<name>.cohesion.{}]"),
     "contact/heat": ("Heat", "[contact.<name>.heat.{}]"),
     "contact/normal": ("Normal force", "[contact.<name>.normal.{}]"),

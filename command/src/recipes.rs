@@ -64,6 +64,8 @@ recipes! {
     "heat" "grains that fall on a plate which warms them":
         "scene.toml" "../recipes/heat/scene.toml",
         "couple.py" "../recipes/heat/couple.py";
+    "fluid" "grains that settle in water":
+        "scene.toml" "../recipes/fluid/scene.toml";
     "clumps" "ballast: stones of four spheres fall into a box":
         "scene.toml" "../recipes/clumps/scene.toml";
     "tablets" "tablets of seven spheres in a drum that turns":

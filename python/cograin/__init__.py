@@ -7,7 +7,8 @@ A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are
 `Quadratic` is of fourth order.
 `couple` runs both sides and returns a `Record`.
 
-The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
+The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh. `Cells` are
+those of a grid.
 
 Forces are those *of the particles on the boundary*. SI units, radians.
 
@@ -32,6 +33,7 @@ True
 joins units to preCICE.
 """
 
+from cograin.cells import Cells
 from cograin.coupling import Coupling, CouplingStopped, StepControl, couple
 from cograin.exchange import Exchange, GaussSeidel, Jacobi, Side, Verlet
 from cograin.heat import HeatCapacity
@@ -51,6 +53,7 @@ from cograin.unit import State, StepDiscarded, Unit, UnitError
 
 __all__ = [
     "Aitken",
+    "Cells",
     "Coupling",
     "CouplingStopped",
     "Exchange",

@@ -193,6 +193,15 @@ EDGES: dict[str, Any] = {"edgecolors": "#999999", "linewidths": 0.4}
 #: Units of the fields of particles.
 FIELDS = {"velocity": "m/s", "angular_velocity": "rad/s", "force": "N", "torque": "N.m", "mass": "kg", "radius": "m"}
 
+#: Units of the fields of grids.
+GRID_FIELDS = {
+    "density": "kg/m3",
+    "velocity": "m/s",
+    "stress": "Pa",
+    "granular_temperature": "m2/s2",
+    "temperature": "K",
+}
+
 
 def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[float, float] | None = None) -> Any:
     """The particles as seen along an axis, coloured by a field: ``velocity``, ``force``, ``set`` and so on.
@@ -233,6 +242,33 @@ def packing(frame: Frame, by: str = "velocity", view: str = "y", scale: tuple[fl
         beyond = "max" if values.max() > high else "neither"
         figure.colorbar(drawn, ax=panel, label=f"{by} [{unit}]", shrink=0.8, extend=beyond)
     panel.set_title(f"t = {frame.time:.4g} s", fontsize=10)
+    return figure
+
+
+def section(frame: Frame, grid: str, by: str | None = None, view: str = "y", at: float = 0.5) -> Any:
+    """A field of ``[grid.<name>]`` in the cells that a plane across the axis ``view`` cuts, by default its first.
+
+    ``at`` says where the plane is between the two faces of the box, from 0 to 1. A vector is shown by its length, a
+    stress by its mean.
+    """
+    image = frame.grid(grid)
+    by = by or next(iter(image.fields))
+    if view not in VIEWS or not 0.0 <= at <= 1.0:
+        raise ResultError(f"expected view x, y or z and at from 0 to 1, found {view} and {at:g}")
+    across, up, depth, _ = VIEWS[view]
+    values = image.box(by).astype(float)
+    if values.ndim == 4:
+        values = values[..., :3].mean(axis=3) if values.shape[3] == 6 else np.linalg.norm(values, axis=3)
+    layer = values.take(min(int(at * image.counts[depth]), image.counts[depth] - 1), axis=depth)
+    planes = [image.lower[axis] + image.edges[axis] * np.arange(image.counts[axis] + 1) for axis in range(3)]
+    figure, (panel,) = _figure(height=5.5)
+    corners = np.array([[plane[0] for plane in planes], [plane[-1] for plane in planes]])
+    _view(panel, corners, np.zeros(2), view)
+    factor, unit = _prefixed(layer, GRID_FIELDS.get(by, "1"))
+    drawn = panel.pcolormesh(planes[across], planes[up], factor * layer.T, cmap="viridis")
+    told = {"stress": "mean stress", "velocity": "speed"}.get(by, by.replace("_", " "))
+    figure.colorbar(drawn, ax=panel, label=f"{told} [{unit}]", shrink=0.8)
+    panel.set_title(f"{grid}, t = {frame.time:.4g} s", fontsize=10)
     return figure
 
 
@@ -385,6 +421,10 @@ def draw(source: str | Path, output: str | Path | None = None, *, by: str = "vel
             for field in dict.fromkeys([by, "force", *sorted(several, reverse=True)[:1]]):
                 keep(f"packing_{field}", lambda field=field: packing(frames[-1], field, view))
             keep("force_chains", lambda: force_chains(frames[-1], view))
+            for grid in frames[-1].grids:
+                for name in frames[-1].grid(grid).fields:
+                    if name != "count_by_set":
+                        keep(f"{grid}_{name}", lambda grid=grid, name=name: section(frames[-1], grid, name, view))
         keep("cracks", lambda: cracks(run, view))
         if len(frames) > 1:
             folder.mkdir(parents=True, exist_ok=True)

@@ -18,6 +18,7 @@ import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from cograin import interrupts
+from cograin.cells import Cells
 from cograin.identity import of_file
 from cograin.nodes import Nodes
 from cograin.vector import Matrix, Vector
@@ -319,6 +320,10 @@ class Unit:
     def nodes(self, boundary: str) -> Nodes:
         """The nodes of a boundary whose mesh has ``nodes = "driven"``, as arrays."""
         return Nodes(self, boundary)
+
+    def cells(self, grid: str) -> Cells:
+        """The cells of ``[grid.<name>]``, as arrays."""
+        return Cells(self, grid)
 
     # Time
 

@@ -153,7 +153,7 @@ impl Number for f64 {
 /// A vector in space whose components are [`Number`]s.
 ///
 /// nalgebra's vectors need operations that lane vectors do not have; this one has what laws use.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vector<N = f64> {
     /// Component along x.
     pub x: N,

@@ -1,8 +1,10 @@
 //! Numbers that are checked as they are read, and indices that cannot be mixed up.
 
-use serde::de::{Error, SeqAccess, Visitor};
+use serde::de::value::{Error as ReadError, F64Deserializer};
+use serde::de::{DeserializeOwned, Error, IntoDeserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
+use std::num::NonZeroU32;
 
 /// Declares a checked `f64`: its name, what it must satisfy, and the words for that in a message.
 macro_rules! checked {
@@ -43,6 +45,8 @@ checked!(/// A number of 1 or above.
     AtLeastOne, value => value >= 1.0, "a number of 1 or above");
 checked!(/// A number above 0 and at most 1.
     Restitution, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
+checked!(/// Part of space that is not filled: above 0 and at most 1.
+    Porosity, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
 checked!(/// A number from 0 to 1.
     Fraction, value => (0.0..=1.0).contains(&value), "a number from 0 to 1");
 checked!(/// A number above 0 and below 1: how much of the stable step an automatic time step takes.
@@ -51,6 +55,61 @@ checked!(/// A number from 0 to below 1.
     BelowOne, value => (0.0..1.0).contains(&value), "a number from 0 to below 1");
 checked!(/// Poisson's ratio of an isotropic material: from 0 to ½.
     PoissonsRatio, value => (0.0..=0.5).contains(&value), "a number from 0 to 0.5");
+
+/// Which numbers a key takes.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    /// The least, where there is one.
+    pub minimum: Option<f64>,
+    /// The largest, where there is one.
+    pub maximum: Option<f64>,
+    /// What the type that reads the key says of a number, if it refuses it.
+    check: fn(f64) -> Result<(), String>,
+}
+
+/// The least number above 0 that has all its digits.
+const ABOVE_ZERO: Option<f64> = Some(f64::MIN_POSITIVE);
+
+impl Range {
+    /// Above 0.
+    pub const POSITIVE: Self = Self::of::<Positive>(ABOVE_ZERO, None);
+    /// 0 or above.
+    pub const NON_NEGATIVE: Self = Self::of::<NonNegative>(Some(0.0), None);
+    /// A whole number of 0 or above.
+    pub(crate) const COUNT: Self = Self::of::<NonNegative>(Some(0.0), Some(65535.0));
+    /// 0 for no, 1 for yes.
+    pub(crate) const SWITCH: Self = Self::of::<NonNegative>(Some(0.0), Some(1.0));
+    /// 1 or above.
+    pub const AT_LEAST_ONE: Self = Self::of::<AtLeastOne>(Some(1.0), None);
+    /// Above 0, at most 1.
+    pub const RESTITUTION: Self = Self::of::<Restitution>(ABOVE_ZERO, Some(1.0));
+    /// From 0 to 1.
+    pub const FRACTION: Self = Self::of::<Fraction>(Some(0.0), Some(1.0));
+    /// From 0 to ½.
+    pub const POISSONS_RATIO: Self = Self::of::<PoissonsRatio>(Some(0.0), Some(0.5));
+    /// Above 0 and below 1.
+    pub(crate) const PART: Self = Self::of::<Safety>(ABOVE_ZERO, Some(1.0 - f64::EPSILON / 2.0));
+    /// From 0 to below 1.
+    pub(crate) const PART_OR_NONE: Self = Self::of::<BelowOne>(Some(0.0), Some(1.0 - f64::EPSILON / 2.0));
+
+    /// The numbers that a type takes, from the least to the largest.
+    pub const fn of<T: DeserializeOwned>(minimum: Option<f64>, maximum: Option<f64>) -> Self {
+        let check = |value: f64| {
+            let reader: F64Deserializer<ReadError> = value.into_deserializer();
+            T::deserialize(reader).map(drop).map_err(|error| error.to_string())
+        };
+        Self { minimum, maximum, check }
+    }
+
+    /// Whether a number is one of them; otherwise the refusal, in the words of a scene's mistakes.
+    pub fn check(&self, value: f64) -> Result<(), String> {
+        (self.check)(value)?;
+        match self.maximum.filter(|&most| value > most) {
+            Some(most) => Err(format!("expected at most {most:?}, found {value:?}")),
+            None => Ok(()),
+        }
+    }
+}
 
 /// Declares an index into one kind of list.
 macro_rules! index {
@@ -123,6 +182,20 @@ impl<'de> Visitor<'de> for Numbers {
             numbers.push(number);
         }
         Ok(numbers)
+    }
+}
+
+/// Cells along each axis, each at least 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Counts(pub(crate) [u32; 3]);
+
+impl<'de> Deserialize<'de> for Counts {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let counts = Vec::<NonZeroU32>::deserialize(deserializer)?;
+        match counts[..] {
+            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
+            _ => Err(D::Error::custom(format!("expected [nx, ny, nz], found {} numbers", counts.len()))),
+        }
     }
 }
 

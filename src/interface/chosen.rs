@@ -92,7 +92,7 @@ pub(super) fn derived(scene: &Scene, variables: &[Variable]) -> Vec<Variable> {
     derived.collect()
 }
 
-/// Indices of what a run records: the outputs and inputs that the scene names, or all outputs but those of single nodes and, where there are
+/// Indices of what a run records: the outputs and inputs that the scene names, or all outputs but those of single nodes and cells of grids and, where there are
 /// very many, of groups of particles.
 pub(super) fn recorded(scene: &Scene, variables: &[Variable]) -> Vec<usize> {
     if let Some(columns) = &scene.output.columns {
@@ -102,7 +102,7 @@ pub(super) fn recorded(scene: &Scene, variables: &[Variable]) -> Vec<usize> {
         let is_recorded = |variable: &Variable| {
             let of_group = |boundary: usize| !scene.boundaries[boundary].shape.members().is_empty();
             let counts = with_groups || !variable.boundary().is_some_and(of_group);
-            variable.causality == Causality::Output && variable.node().is_none() && counts
+            variable.causality == Causality::Output && variable.element().is_none() && counts
         };
         (0..variables.len()).filter(|&index| is_recorded(&variables[index])).collect::<Vec<_>>()
     };

@@ -1,7 +1,7 @@
 //! Quantities that need a pass over particles or contacts: each is computed once at a communication point.
 
 use crate::base::quantity::BoundaryIndex;
-use crate::engine::averages::{self, Content, Coordination, Sight, Tensor};
+use crate::engine::averages::{self, Content, Coordination, Count, Sight, Tensor};
 use crate::engine::simulation::{ElasticEnergy, Fabric, Simulation};
 use crate::engine::state::Loss;
 use crate::engine::statics;
@@ -33,6 +33,8 @@ pub struct Findings {
     carried: OnceCell<Vec<Tensor>>,
     /// Contacts of the particles in each region.
     coordination: OnceCell<Vec<Coordination>>,
+    /// What is in the cells of each grid.
+    grids: OnceCell<Vec<OfCells>>,
     /// Stress of the cell \[Pa\].
     cell_stress: OnceCell<[f64; 6]>,
     /// Contacts between the particles of the cell.
@@ -91,10 +93,15 @@ impl Findings {
 
     /// A component of the stress in a region \[Pa\]: of what contacts and bonds carry and of the velocities less their mean, symmetric.
     pub(super) fn stress(&self, simulation: &Simulation, region: usize, [row, column]: [usize; 2]) -> f64 {
-        let carried = self.carried.get_or_init(|| averages::carried(simulation))[region];
-        let fluctuation = self.content(simulation, region).fluctuation;
-        let carried = 0.5 * (carried[row][column] + carried[column][row]);
-        (carried - fluctuation[row][column]) / simulation.scene().regions[region].shape.volume()
+        let carried = &self.carried.get_or_init(|| averages::carried(simulation))[region];
+        let volume = simulation.scene().regions[region].shape.volume();
+        self.content(simulation, region).stress(carried, volume, [row, column])
+    }
+
+    /// What is in the cells of a grid.
+    pub(super) fn of_cells(&self, simulation: &Simulation, grid: usize) -> &OfCells {
+        let empty = || (0..simulation.scene().grids.len()).map(|grid| OfCells { grid, ..OfCells::default() }).collect();
+        &self.grids.get_or_init(empty)[grid]
     }
 
     /// Stress of the periodic cell \[Pa\].
@@ -115,6 +122,38 @@ impl Findings {
     /// Largest overlap over the smaller radius.
     pub(super) fn largest_overlap(&self, simulation: &Simulation) -> f64 {
         *self.largest_overlap.get_or_init(|| simulation.largest_overlap())
+    }
+}
+
+/// What is in the cells of a grid, each found when it is asked for.
+#[derive(Debug, Default)]
+pub(super) struct OfCells {
+    /// Which grid of the scene.
+    grid: usize,
+    /// The particles.
+    contents: OnceCell<Vec<Content>>,
+    /// What contacts and bonds carry.
+    carried: OnceCell<Vec<Tensor>>,
+    /// How many particles.
+    counts: OnceCell<Vec<Count>>,
+}
+
+impl OfCells {
+    /// The particles in each cell.
+    pub(super) fn contents(&self, simulation: &Simulation) -> &[Content] {
+        self.contents.get_or_init(|| averages::contents_of_cells(simulation, self.grid))
+    }
+
+    /// Particles whose centre is in each cell.
+    pub(super) fn counts(&self, simulation: &Simulation) -> &[Count] {
+        self.counts.get_or_init(|| averages::counts(simulation, self.grid))
+    }
+
+    /// A component of the stress in a cell \[Pa\], as in a region.
+    pub(super) fn stress(&self, simulation: &Simulation, cell: usize, component: [usize; 2]) -> f64 {
+        let carried = &self.carried.get_or_init(|| averages::carried_in_cells(simulation, self.grid))[cell];
+        let volume = simulation.scene().grids[self.grid].shape.cell_volume();
+        self.contents(simulation)[cell].stress(carried, volume, component)
     }
 }
 

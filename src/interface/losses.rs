@@ -27,6 +27,7 @@ pub(super) const LOSSES: [(&str, &str); Loss::COUNT] = [
     ("energy.lost.bond_damping", "energy that damping and relaxation took of the bonds since the start"),
     ("energy.lost.bond_release", "elastic energy that broken bonds released since the start"),
     ("energy.lost.global_damping", "energy that global damping took since the start"),
+    ("energy.lost.drag", "energy that the drag of the fluid took since the start"),
     (
         "energy.lost.removed",
         "kinetic, elastic and potential energy that left with particles since the start, less what came with others",
@@ -46,6 +47,7 @@ pub(super) fn is_booked(scene: &Scene, loss: Loss) -> bool {
         Loss::BondDamping => (0..scene.bonds.len()).any(|bond| scene.bond_law(bond).dissipates()),
         Loss::BondRelease => scene.bonds.iter().any(|bond| !bond.keys.breakage.is_empty()),
         Loss::GlobalDamping => !scene.damping.is_empty(),
+        Loss::Drag => scene.fluid.is_some(),
         Loss::Removed => scene.changes_number(),
     };
     scene.output.losses && possible()

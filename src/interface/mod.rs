@@ -20,6 +20,7 @@ pub use derivatives::Derivatives;
 pub use error::InterfaceError;
 pub use findings::Findings;
 pub use quantity::{Quantity, Type};
+pub use rows::{Field, fields};
 pub use texts::FRAMES;
 
 use crate::engine::simulation::Simulation;
@@ -113,10 +114,10 @@ pub struct Variable {
 }
 
 impl Variable {
-    /// The node that it is of, from 0, if it is of one.
-    pub fn node(&self) -> Option<usize> {
+    /// The node of a mesh or the cell of a grid that it is of, from 0, if it is of one.
+    pub fn element(&self) -> Option<usize> {
         match &self.source {
-            Source::Row(row) => row.node(),
+            Source::Row(row) => row.element(),
             Source::Parameter(_) | Source::Text(_) | Source::Derived(_) => None,
         }
     }
@@ -200,7 +201,7 @@ impl Interface {
         self.of_causality(Causality::Output)
     }
 
-    /// What a run records, each with its index: the outputs and inputs that the scene names, or all outputs but those of single nodes and, beyond
+    /// What a run records, each with its index: the outputs and inputs that the scene names, or all outputs but those of single nodes and cells of grids and, beyond
     /// [`MOST_COLUMNS`], of groups of particles.
     pub fn recorded(&self) -> impl Iterator<Item = (usize, &Variable)> {
         self.recorded.iter().map(|&index| (index, &self.variables[index]))

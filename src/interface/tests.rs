@@ -3,7 +3,7 @@
 use super::*;
 use crate::base::quantity::{MaterialIndex, ParticleId, SetIndex};
 use crate::engine::state::BoundaryState;
-use crate::laws::contact::{Material, PairProperties};
+use crate::laws::contact::{Material, Properties};
 use crate::laws::surface::{Group, Plane};
 use crate::scene::{
     AxisMotion, Body, Boundary, InputCourse, NodeMotion, Output, Outside, Particle, ParticleShape, SceneDraft, Shape,
@@ -27,6 +27,7 @@ fn draft() -> SceneDraft {
         body: Body::default(),
         outside: Outside::default(),
         temperature: Default::default(),
+        wear: Vec::new(),
     };
     let sphere = Particle {
         id: ParticleId(7),
@@ -45,11 +46,12 @@ fn draft() -> SceneDraft {
         youngs_modulus: None,
         poissons_ratio: None,
         thermal: Default::default(),
+        properties: Default::default(),
     };
     use AxisMotion::{Driven, Fixed, Prescribed};
     SceneDraft {
         materials: vec![stone],
-        pairs: vec![PairProperties::default()],
+        pairs: vec![Properties::default()],
         sets: vec!["stones".to_owned()],
         particles: vec![sphere],
         boundaries: vec![

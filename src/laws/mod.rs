@@ -3,7 +3,9 @@
 pub mod bond;
 pub mod column;
 pub mod contact;
+pub mod drag;
 mod kept;
 pub mod motion;
 pub mod region;
 pub mod surface;
+pub mod wear;

@@ -1,6 +1,7 @@
 //! `[boundary.<name>]`
 
 use super::{AxisMotion, Body, BoundaryTemperature, InputCourse, NodeMotion, Outside, Shape};
+use crate::laws::wear::WearModel;
 
 /// `[boundary.<name>]`: where the outside world acts on the particles.
 #[derive(Clone, Debug)]
@@ -23,6 +24,8 @@ pub struct Boundary {
     pub outside: Outside,
     /// Its temperature.
     pub temperature: BoundaryTemperature,
+    /// What particles wear off it: the volumes of all models add up.
+    pub wear: Vec<WearModel>,
 }
 
 impl Boundary {

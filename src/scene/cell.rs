@@ -333,7 +333,8 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
         }
     }
     let parts = (scene.regions.iter().map(|it| (format!("region.{}", it.name), it.shape.bounds())))
-        .chain(scene.meters.iter().map(|it| (format!("flow_meter.{}", it.name), it.polygon.bounds())));
+        .chain(scene.meters.iter().map(|it| (format!("flow_meter.{}", it.name), it.polygon.bounds())))
+        .chain(scene.grids.iter().map(|it| (format!("grid.{}", it.name), it.shape.corners)));
     for (table, corners) in parts {
         let widths = cell.lattice.parts_of_box(corners).map(|[low, high]| high - low);
         if let Some(edge) = (0..3).find(|&edge| cell.lattice.periodic[edge] && widths[edge] > MOST_IMAGES) {
@@ -341,6 +342,11 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
             let expected = format!("a part of space over no more than {MOST_IMAGES} edges of the cell");
             found.push((table, "", Mistake::Unexpected { found: found_width, expected }));
         }
+    }
+    for grid in scene.grids.iter().filter(|_| cell.moves()) {
+        let message =
+            "expected a [cell] that keeps its shape beside a grid, whose cells stand still, found one that is deformed";
+        found.push(refused(format!("grid.{}", grid.name), "", message));
     }
     if cell.moves() && (scene.gravity != [0.0; 3] || !scene.forces.is_empty()) {
         let message = "expected neither gravity nor [force] beside a [cell] that is deformed, found one: they would work on its streaming motion";
@@ -358,6 +364,7 @@ fn beside(scene: &SceneDraft, cell: &Cell) -> Vec<Objection> {
         .iter()
         .map(|it| ("boundary", &it.name))
         .chain(scene.regions.iter().map(|it| ("region", &it.name)))
+        .chain(scene.grids.iter().map(|it| ("grid", &it.name)))
         .chain(scene.insertions.iter().map(|it| ("insertion", &it.name)))
         .chain(scene.outlets.iter().map(|it| ("outlet", &it.name)))
         .chain(scene.meters.iter().map(|it| ("flow_meter", &it.name)))

@@ -3,7 +3,8 @@
 use super::SceneDraft;
 use crate::laws::bond::creation::ContactPolicy;
 use crate::laws::contact::{HistoryRow, Law, OFFSET};
-use crate::scene::Probed;
+use crate::laws::wear::WearModel;
+use crate::scene::{GridOutput, Probed};
 
 /// The contact law of each two materials: the only place that says which law governs a contact.
 #[derive(Clone, Debug)]
@@ -43,13 +44,26 @@ impl SceneDraft {
     pub fn law(&self, law: usize) -> Law {
         let law = Law::of(&self.contacts[law].choice);
         let law = if self.records_contacts() { law.recorded() } else { law };
-        if self.output.losses { law.booked().warming(self.heat.from_losses) } else { law }
+        let law = if self.output.losses { law.booked().warming(self.heat.from_losses) } else { law };
+        if self.follows_impacts() { law.followed() } else { law }
+    }
+
+    /// Whether anything is summed up of what contacts leave behind.
+    pub(crate) fn has_traces(&self) -> bool {
+        self.output.impacts.is_some() || self.boundaries.iter().any(|boundary| !boundary.wear.is_empty())
+    }
+
+    /// Whether contacts remember how they began and what they lost.
+    fn follows_impacts(&self) -> bool {
+        let looks = |boundary: &crate::scene::Boundary| boundary.wear.iter().any(WearModel::looks_at_touch);
+        self.output.impacts.is_some() || self.boundaries.iter().any(looks)
     }
 
     /// Whether an output takes forces of single contacts.
     fn records_contacts(&self) -> bool {
         let probed = || self.probes.iter().any(|probe| matches!(probe.of, Probed::Contact(_)));
-        self.output.contacts || self.output.boundaries || !self.regions.is_empty() || probed()
+        let stress = || self.grids.iter().any(|grid| grid.tells(GridOutput::Stress));
+        self.output.contacts || self.output.boundaries || !self.regions.is_empty() || stress() || probed()
     }
 
     /// Rows that are kept of each contact of a law: those that the law remembers and, where bonds suppress contacts,

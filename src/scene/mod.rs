@@ -14,7 +14,9 @@ mod column;
 mod damping;
 pub mod exchange;
 pub(crate) mod file;
+mod fluid;
 mod governing;
+mod grid;
 pub(crate) mod heat;
 pub(crate) mod import;
 mod models;
@@ -28,6 +30,7 @@ mod source;
 mod statics;
 
 pub use crate::base::document::{Mistake, SceneError, SceneErrors, Setting, SettingError};
+pub use crate::base::quantity::Range;
 pub use crate::laws::motion::{AxisMotion, InputCourse, NodeMotion};
 pub use crate::laws::surface::Shape;
 pub use crate::scene::exchange::{InsertedClump, Kind, Outside};
@@ -43,13 +46,14 @@ pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
+pub use fluid::{Fluid, FluidVelocity};
 pub use governing::GoverningLaws;
+pub use grid::{Grid, GridOutput};
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
-pub use output::Output;
-pub(crate) use parameters::range_of;
-pub use parameters::{Parameter, Range};
+pub use output::{EnergyBins, Impacts, Output};
+pub use parameters::Parameter;
 pub(crate) use plane::objections as plane_objections;
 pub use plane::{MotionPlane, ParticleShape};
 pub use probe::{Derived, Probe, Probed};
@@ -58,7 +62,7 @@ pub use region::Region;
 pub use source::Source;
 
 use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
-use crate::laws::contact::{HeatModel, LawChoice, Material, PairProperties, Scheme};
+use crate::laws::contact::{self, HeatModel, LawChoice, Material, Properties, Scheme};
 
 /// Everything that a scene says, in SI units, before it is checked as a whole.
 ///
@@ -69,7 +73,7 @@ use crate::laws::contact::{HeatModel, LawChoice, Material, PairProperties, Schem
 /// use cograin::quantity::{MaterialIndex, ParticleId, SetIndex};
 /// use cograin::scene::{Particle, SceneDraft};
 ///
-/// let glass = Material { name: "glass".into(), density: 2500.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default() };
+/// let glass = Material { name: "glass".into(), density: 2500.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default(), properties: Default::default() };
 /// let marble = Particle {
 ///     id: ParticleId(1), set: SetIndex(0), material: MaterialIndex(0), shape: Default::default(), radius: 0.01,
 ///     density: 2500.0, position: [0.0, 0.0, 0.02], velocity: [0.0; 3], angular_velocity: [0.0; 3],
@@ -98,7 +102,7 @@ pub struct SceneDraft {
     /// Materials, in the order of the file.
     pub materials: Vec<Material>,
     /// Properties of each two materials, `materials.len()²` of them, row by row, symmetric.
-    pub pairs: Vec<PairProperties>,
+    pub pairs: Vec<Properties>,
     /// Contact laws; each two materials belong to at most one.
     pub contacts: Vec<ContactLaw>,
     /// Bond laws, in the order of the file.
@@ -123,8 +127,12 @@ pub struct SceneDraft {
     pub heat: HeatSettings,
     /// What warms or cools particles, in the order of the file.
     pub heat_sources: Vec<HeatSource>,
+    /// The fluid around the particles, if there is one.
+    pub fluid: Option<Fluid>,
     /// Parts of space of which stress, porosity and motion are outputs, in the order of the file.
     pub regions: Vec<Region>,
+    /// Boxes divided into cells, each of which is looked at, in the order of the file.
+    pub grids: Vec<Grid>,
     /// The box that particles may not leave \[m\]: lower and upper corner.
     pub domain: Option<[[f64; 3]; 2]>,
     /// What happens to particles outside of it.
@@ -319,7 +327,7 @@ impl SceneDraft {
             b: &self.materials[b],
             properties: &self.pairs[entry],
         };
-        let density = pair.properties.cohesion_energy_density?.get();
+        let density = pair.properties.get(&contact::property::COHESION_ENERGY_DENSITY)?;
         Some(density / pair.effective_youngs_modulus().ok()?)
     }
 }

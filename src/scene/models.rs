@@ -1,14 +1,16 @@
-//! The sub-models, rules of breakage and shapes that scenes may name.
+//! The sub-models, rules of breakage, shapes and drag laws that scenes may name.
 
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
 use crate::laws::column::{Column, TEMPERATURE};
 use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel,
-    NormalRow, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow,
+    NormalRow, Property, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow, property,
 };
+use crate::laws::drag::{self, Drag, DragRow};
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
+use crate::laws::wear::{self, Wear, WearRow};
 
-/// The sub-models, rules of breakage and shapes that scenes may name: those of the program, and those that another crate adds.
+/// The sub-models, rules of breakage, shapes and drag laws that scenes may name: those of the program, and those that another crate adds.
 ///
 /// ```
 /// use cograin::contact::normal::hertz::Hertz;
@@ -34,6 +36,10 @@ pub struct Models {
     pub(crate) breakage: Vec<&'static BreakageRow>,
     /// Shapes of boundaries.
     pub(crate) shapes: Vec<&'static ShapeRow>,
+    /// Drag laws of fluids.
+    pub(crate) drag: Vec<&'static DragRow>,
+    /// Models of wear.
+    pub(crate) wear: Vec<&'static WearRow>,
     /// Columns of particles that scenes may ask for.
     pub(crate) columns: Vec<&'static Column>,
 }
@@ -55,6 +61,8 @@ impl Models {
             heat: contact::heat::STANDARD.to_vec(),
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
+            drag: drag::STANDARD.to_vec(),
+            wear: wear::STANDARD.to_vec(),
             columns: vec![&TEMPERATURE],
         }
     }
@@ -101,10 +109,47 @@ impl Models {
         self
     }
 
+    /// The same and a drag law, in place of one of the same name.
+    pub fn with_drag<D: Drag>(mut self) -> Self {
+        put(&mut self.drag, DragRow::of::<D>(), DragRow::name);
+        self
+    }
+
+    /// The same and a model of wear, in place of one of the same name.
+    pub fn with_wear<W: Wear>(mut self) -> Self {
+        put(&mut self.wear, WearRow::of::<W>(), WearRow::name);
+        self
+    }
+
     /// The same and a column of particles, in place of one of the same name.
     pub fn with_column(mut self, column: &'static Column) -> Self {
         put(&mut self.columns, column, |column| column.name);
         self
+    }
+
+    /// Keys of `[pair.<a>.<b>]`: those of the program, and those that sub-models declare.
+    pub(crate) fn pair_properties(&self) -> Vec<&'static Property> {
+        let mut all = property::STANDARD.to_vec();
+        self.declared(0).for_each(|declared| put(&mut all, declared, |property| property.name));
+        all
+    }
+
+    /// Keys of `[material.<name>]` that sub-models declare.
+    pub(crate) fn material_properties(&self) -> Vec<&'static Property> {
+        let mut all = Vec::new();
+        self.declared(1).for_each(|declared| put(&mut all, declared, |property| property.name));
+        all
+    }
+
+    /// Properties that sub-models declare, of pairs (0) or of materials (1).
+    fn declared(&self, kind: usize) -> impl Iterator<Item = &'static Property> {
+        let normal = self.normal.iter().map(|row| row.properties);
+        let tangential = self.tangential.iter().map(|row| row.properties);
+        let rolling = self.rolling.iter().map(|row| row.properties);
+        let cohesion = self.cohesion.iter().map(|row| row.properties);
+        let heat = self.heat.iter().map(|row| row.properties);
+        let all = normal.chain(tangential).chain(rolling).chain(cohesion).chain(heat);
+        all.flat_map(move |properties| properties[kind].iter().copied())
     }
 
     /// The normal sub-model of this name with these keys, if there is one and they are of its type.
@@ -150,6 +195,11 @@ impl Models {
     /// Names of the cohesion sub-models.
     pub fn cohesion_names(&self) -> Vec<&'static str> {
         names(&self.cohesion)
+    }
+
+    /// Names of the drag laws.
+    pub fn drag_names(&self) -> Vec<&'static str> {
+        self.drag.iter().map(|row| row.name()).collect()
     }
 
     /// Names of the heat sub-models.

@@ -4,13 +4,10 @@
 //! checked by the type that reads the key.
 
 use super::SceneDraft;
-use crate::base::document;
-use crate::base::quantity::{MaterialIndex, Positive};
+use crate::base::quantity::{MaterialIndex, Positive, Range};
 use crate::laws::bond::Law;
 use crate::laws::bond::keys::KeyError;
-use crate::laws::contact::PairProperties;
-use serde::de::value::{Error, F64Deserializer};
-use serde::de::{DeserializeOwned, IntoDeserializer};
+use crate::laws::contact::Properties;
 
 /// A number of the text that is a parameter of the unit.
 #[derive(Clone, Debug)]
@@ -27,37 +24,6 @@ pub struct Parameter {
     pub tunable: bool,
     /// What it is.
     pub about: String,
-}
-
-/// Which numbers a key takes.
-#[derive(Clone, Copy, Debug)]
-pub struct Range {
-    /// The least, where there is one.
-    pub minimum: Option<f64>,
-    /// The largest, where there is one.
-    pub maximum: Option<f64>,
-    /// What the type that reads the key says of a number, if it refuses it.
-    check: fn(f64) -> Result<(), String>,
-}
-
-/// Numbers that a type takes.
-pub(crate) const fn range_of<T: DeserializeOwned>(minimum: Option<f64>, maximum: Option<f64>) -> Range {
-    let check = |value: f64| {
-        let reader: F64Deserializer<Error> = value.into_deserializer();
-        T::deserialize(reader).map(drop).map_err(|error| error.to_string())
-    };
-    Range { minimum, maximum, check }
-}
-
-impl Range {
-    /// Whether a number is one of them; otherwise the refusal, in the words of a scene's mistakes.
-    pub fn check(&self, value: f64) -> Result<(), String> {
-        (self.check)(value)?;
-        match self.maximum.filter(|&most| value > most) {
-            Some(most) => Err(format!("expected at most {most:?}, found {value:?}")),
-            None => Ok(()),
-        }
-    }
 }
 
 impl SceneDraft {
@@ -82,15 +48,17 @@ impl SceneDraft {
     }
 
     /// The properties of two materials with these values of the tunable parameters.
-    pub(crate) fn tuned_pair(&self, pair: [MaterialIndex; 2], tuned: &[f64]) -> Option<PairProperties> {
-        let (mut tuned, mut properties) = (tuned.iter(), String::new());
-        for parameter in &self.parameters {
-            let value = if parameter.tunable { *tuned.next()? } else { parameter.value };
+    pub(crate) fn tuned_pair(&self, pair: [MaterialIndex; 2], tuned: &[f64]) -> Option<Properties> {
+        let [a, b] = pair.map(MaterialIndex::index);
+        let mut properties = self.pairs.get(a * self.materials.len() + b)?.clone();
+        for (parameter, &value) in self.tunables().zip(tuned) {
             if self.pair_of(&parameter.name) == Some(pair) {
-                properties += &format!("{} = {value:?}\n", parameter.name.rsplit('.').next()?);
+                let (property, _) = properties.named(parameter.name.rsplit('.').next()?)?;
+                property.range.check(value).ok()?;
+                properties = properties.with(property, value);
             }
         }
-        document::read_text(&properties)
+        Some(properties)
     }
 
     /// A bond law with these values of the tunable parameters, or what they contradict.

@@ -121,5 +121,9 @@ fn discs(scene: &SceneDraft) -> Vec<Objection> {
         let found = "a region, which reckons with the volume of spheres";
         refused(format!("region.{}", region.name), found, "a scene without regions")
     });
-    epsd.chain(regions).collect()
+    let grids = scene.grids.iter().map(|grid| {
+        let found = "a grid, which reckons with the volume of spheres";
+        refused(format!("grid.{}", grid.name), found, "a scene without grids")
+    });
+    epsd.chain(regions).chain(grids).collect()
 }

@@ -6,8 +6,7 @@
 use crate::physics::cundall_decay::damping;
 use crate::physics::stage::{SMOOTH, SPRING, Stage, assert_close, material, properties, scene, sphere};
 use cograin::contact::cohesion::sjkr;
-use cograin::contact::{CohesionModel, LawChoice, PairProperties, cohesion};
-use cograin::quantity::NonNegative;
+use cograin::contact::{CohesionModel, LawChoice, Properties, cohesion, property};
 use std::f64::consts::PI;
 
 /// Radius \[m\].
@@ -20,7 +19,7 @@ const COHESION: CohesionModel = CohesionModel::fixed::<cohesion::sjkr::Sjkr>(&sj
 const TOUCH: f64 = 1e-6 * R;
 
 /// Overlap \[m\] of two spheres at rest, or none where the run stops.
-fn at_rest(law: LawChoice, pair: PairProperties, step: f64) -> Option<f64> {
+fn at_rest(law: LawChoice, pair: Properties, step: f64) -> Option<f64> {
     let mut other = sphere(R, 2500.0);
     other.position[0] = 2.0 * R - TOUCH;
     let mut scene = scene(law, step, vec![material(1.82e7, 0.3)], pair, vec![sphere(R, 2500.0), other]);
@@ -37,8 +36,8 @@ fn at_rest(law: LawChoice, pair: PairProperties, step: f64) -> Option<f64> {
 fn hertz_rests_where_attraction_and_elasticity_are_equal() {
     let effective = 1.82e7 / (1.0 - 0.09) / 2.0;
     for part in [0.002, 0.005, 0.01] {
-        let density = NonNegative::new(part * effective);
-        let pair = PairProperties { cohesion_energy_density: density, ..properties(0.5, 0.0) };
+        let density = part * effective;
+        let pair = properties(0.5, 0.0).with(&property::COHESION_ENERGY_DENSITY, density);
         let found = at_rest(LawChoice { cohesion: COHESION, ..SMOOTH }, pair, 1e-6).expect("it rests");
         // The area is that of the lens, 2 π R* δ (1 − δ/(4 R) …): within the overlap over the radius.
         let expected = 0.5 * R * (1.5 * PI * part) * (1.5 * PI * part);
@@ -51,12 +50,10 @@ fn linear_springs_hold_below_the_limit_and_not_above() {
     let stiffness = 1e4;
     let limit = stiffness / (PI * R);
     let overlap = |part: f64| {
-        let pair = PairProperties {
-            cohesion_energy_density: NonNegative::new(part * limit),
-            normal_stiffness: NonNegative::new(stiffness),
-            normal_damping: NonNegative::new(0.0),
-            ..properties(1.0, 0.0)
-        };
+        let pair = properties(1.0, 0.0)
+            .with(&property::COHESION_ENERGY_DENSITY, part * limit)
+            .with(&property::NORMAL_STIFFNESS, stiffness)
+            .with(&property::NORMAL_DAMPING, 0.0);
         at_rest(LawChoice { cohesion: COHESION, ..SPRING }, pair, 1e-6)
     };
     let held = overlap(0.99).expect("it goes on");

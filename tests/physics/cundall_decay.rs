@@ -5,8 +5,7 @@
 //! half a cycle under k (1 − a), half under k (1 + a): T/T₀ = ½ (1/√(1 − a) + 1/√(1 + a)).
 
 use crate::physics::stage::{SMOOTH, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
-use cograin::contact::PairProperties;
-use cograin::quantity::NonNegative;
+use cograin::contact::property;
 use cograin::scene::{Damping, SceneDraft};
 use std::f64::consts::PI;
 
@@ -33,11 +32,7 @@ fn low_points(fraction: f64) -> Vec<(f64, f64)> {
     let stiffness = 1000.0;
     let rest = body.mass() * G / stiffness;
     body.position[2] = 0.005 - 1.9 * rest;
-    let pair = PairProperties {
-        normal_stiffness: NonNegative::new(stiffness),
-        normal_damping: NonNegative::new(0.0),
-        ..properties(1.0, 0.0)
-    };
+    let pair = properties(1.0, 0.0).with(&property::NORMAL_STIFFNESS, stiffness).with(&property::NORMAL_DAMPING, 0.0);
     let period = 2.0 * PI * (body.mass() / stiffness).sqrt();
     let mut scene = scene(SPRING, period / 5000.0, vec![material(1e7, 0.0)], pair, vec![body]);
     scene.gravity = [0.0, 0.0, -G];

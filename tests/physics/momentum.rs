@@ -4,8 +4,7 @@
 
 use crate::physics::stage::{HERTZ, Stage, assert_near, material, properties, scene, sphere};
 use cograin::contact::cohesion::sjkr;
-use cograin::contact::{CohesionModel, LawChoice, NoKeys, PairProperties, RollingModel, cohesion, rolling};
-use cograin::quantity::NonNegative;
+use cograin::contact::{CohesionModel, LawChoice, NoKeys, Properties, RollingModel, cohesion, property, rolling};
 use cograin::scene::Particle;
 
 /// A block of spheres of three sizes that flies together, twists and collides.
@@ -28,17 +27,14 @@ pub(crate) fn cloud() -> Vec<Particle> {
 }
 
 /// Everything that makes forces between spheres.
-pub(crate) fn whole_law() -> (LawChoice, PairProperties) {
+pub(crate) fn whole_law() -> (LawChoice, Properties) {
     let law = LawChoice {
         rolling: RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}),
         cohesion: CohesionModel::of::<cohesion::sjkr::Sjkr>(sjkr::Keys { tangential_reduce: true }),
         ..HERTZ
     };
-    let pair = PairProperties {
-        rolling_friction: NonNegative::new(0.1),
-        cohesion_energy_density: NonNegative::new(2e4),
-        ..properties(0.6, 0.5)
-    };
+    let pair =
+        properties(0.6, 0.5).with(&property::ROLLING_FRICTION, 0.1).with(&property::COHESION_ENERGY_DENSITY, 2e4);
     (law, pair)
 }
 

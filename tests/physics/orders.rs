@@ -4,8 +4,7 @@
 
 use crate::physics::stage::{HERTZ, Stage, hertz_duration, material, plane, properties, scene, sphere};
 use cograin::contact::rolling::rocking;
-use cograin::contact::{LawChoice, PairProperties, RollingModel, Scheme, rolling};
-use cograin::quantity::NonNegative;
+use cograin::contact::{LawChoice, Properties, RollingModel, Scheme, property, rolling};
 use cograin::scene::{AppliedForce, SceneDraft};
 
 /// Radius of all spheres \[m\].
@@ -100,7 +99,7 @@ fn stuck_pair(scheme: Scheme, phase: f64, spin: [f64; 3]) -> SceneDraft {
 }
 
 /// Young's modulus and density give a sphere that sinks 5e-4 of its radius into the plane.
-fn resting(law: LawChoice, pair: PairProperties) -> SceneDraft {
+fn resting(law: LawChoice, pair: Properties) -> SceneDraft {
     let mut body = sphere(R, 2500.0);
     let modulus = 1e6 / (2.0 * 0.91);
     let overlap = (body.mass() * 9.81 / (4.0 / 3.0 * modulus * R.sqrt())).powf(2.0 / 3.0);
@@ -113,7 +112,7 @@ fn resting(law: LawChoice, pair: PairProperties) -> SceneDraft {
 }
 
 /// Two spheres that forces press together while they spin, roll and slip on each other.
-fn pressed(law: LawChoice, pair: PairProperties) -> SceneDraft {
+fn pressed(law: LawChoice, pair: Properties) -> SceneDraft {
     let (mut one, mut other) = (sphere(R, 2500.0), sphere(R, 2500.0));
     one.position[2] = 2.0 * R - 2e-5;
     one.velocity = [0.02, 0.01, 0.0];
@@ -160,16 +159,14 @@ fn damped() -> [Case; 2] {
 /// Rolling springs without dashpots, in permanent contact.
 fn rolling() -> [Case; 3] {
     /// With this rolling model, elastic.
-    fn with(scheme: Scheme, rolling: RollingModel) -> (LawChoice, PairProperties) {
-        let pair = PairProperties {
-            rolling_friction: NonNegative::new(ROLLING),
-            rolling_viscous_damping: NonNegative::new(0.0),
-            ..properties(1.0, 20.0)
-        };
+    fn with(scheme: Scheme, rolling: RollingModel) -> (LawChoice, Properties) {
+        let pair = properties(1.0, 20.0)
+            .with(&property::ROLLING_FRICTION, ROLLING)
+            .with(&property::ROLLING_VISCOUS_DAMPING, 0.0);
         (LawChoice { rolling, ..law(scheme) }, pair)
     }
     /// The spring as stiff as friction, with torsion.
-    fn twisting(scheme: Scheme) -> (LawChoice, PairProperties) {
+    fn twisting(scheme: Scheme) -> (LawChoice, Properties) {
         with(
             scheme,
             RollingModel::of::<rolling::epsd2::Epsd2>(rocking::Keys { torsion: true, ..rocking::Keys::default() }),

@@ -6,8 +6,7 @@
 use crate::physics::stage::{
     HERTZ, SMOOTH, Stage, assert_close, assert_near, material, plane, properties, scene, sphere,
 };
-use cograin::contact::{LawChoice, NoKeys, PairProperties, RollingModel, rolling};
-use cograin::quantity::NonNegative;
+use cograin::contact::{LawChoice, NoKeys, RollingModel, property, rolling};
 
 /// Gravity \[m/s²\].
 const G: f64 = 9.81;
@@ -29,8 +28,7 @@ fn resting(law: LawChoice, down: [f64; 3], friction: f64, speed: f64, spin: f64)
     body.position = [0.0, 0.0, R - overlap];
     body.velocity[0] = speed;
     body.angular_velocity[1] = spin;
-    let rolling_friction = NonNegative::new(MU);
-    let pair = PairProperties { rolling_friction, ..properties(0.5, friction) };
+    let pair = properties(0.5, friction).with(&property::ROLLING_FRICTION, MU);
     let rough = LawChoice { rolling: RollingModel::of::<rolling::cdt::Cdt>(NoKeys {}), ..law };
     let mut scene = scene(rough, 4e-6, vec![material(modulus, 0.0); 2], pair, vec![body]);
     scene.gravity = down;

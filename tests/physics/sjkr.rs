@@ -5,8 +5,7 @@
 
 use crate::physics::stage::{HERTZ, SPRING, Stage, assert_close, material, plane, properties, scene, sphere};
 use cograin::contact::cohesion::sjkr;
-use cograin::contact::{CohesionModel, LawChoice, NoKeys, PairProperties, TangentialModel, cohesion, tangential};
-use cograin::quantity::NonNegative;
+use cograin::contact::{CohesionModel, LawChoice, NoKeys, Properties, TangentialModel, cohesion, property, tangential};
 use cograin::scene::SceneDraft;
 use std::f64::consts::PI;
 
@@ -20,13 +19,11 @@ const OVERLAP: f64 = 1e-6;
 const DENSITY: f64 = 1e4;
 
 /// A law without springs that holds by cohesion alone.
-fn law(cohesion: CohesionModel) -> (LawChoice, PairProperties) {
-    let pair = PairProperties {
-        normal_stiffness: NonNegative::new(0.0),
-        normal_damping: NonNegative::new(0.0),
-        cohesion_energy_density: NonNegative::new(DENSITY),
-        ..properties(1.0, 0.0)
-    };
+fn law(cohesion: CohesionModel) -> (LawChoice, Properties) {
+    let pair = properties(1.0, 0.0)
+        .with(&property::NORMAL_STIFFNESS, 0.0)
+        .with(&property::NORMAL_DAMPING, 0.0)
+        .with(&property::COHESION_ENERGY_DENSITY, DENSITY);
     (LawChoice { cohesion, ..SPRING }, pair)
 }
 
@@ -82,7 +79,7 @@ fn friction(tangential_reduce: bool) -> (f64, f64) {
         cohesion: CohesionModel::of::<cohesion::sjkr2::Sjkr2>(sjkr::Keys { tangential_reduce }),
         ..HERTZ
     };
-    let pair = PairProperties { cohesion_energy_density: NonNegative::new(density), ..properties(0.5, 0.1) };
+    let pair = properties(0.5, 0.1).with(&property::COHESION_ENERGY_DENSITY, density);
     let mut scene: SceneDraft = scene(law, 1e-7, vec![material(1e7, 0.0); 2], pair, vec![body]);
     scene.boundaries = vec![plane([0.0; 3], [0.0, 0.0, 1.0], 1)];
     (-Stage::of(scene).force(0)[0], 0.1 * elastic)

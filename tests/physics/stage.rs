@@ -2,10 +2,10 @@
 
 use cograin::contact::normal::hooke_stiffness;
 use cograin::contact::{
-    CohesionModel, LawChoice, Material, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches,
-    TangentialModel, cohesion, normal, rolling, tangential,
+    CohesionModel, LawChoice, Material, NoKeys, NormalModel, Properties, RollingModel, Scheme, Switches,
+    TangentialModel, cohesion, normal, property, rolling, tangential,
 };
-use cograin::quantity::{MaterialIndex, NonNegative, ParticleId, Restitution, SetIndex};
+use cograin::quantity::{MaterialIndex, ParticleId, SetIndex};
 use cograin::scene::{
     AxisMotion, Body, Boundary, ContactLaw, InputCourse, NodeMotion, Outside, Particle, ParticleShape, Run, SceneDraft,
     Shape, Step,
@@ -48,6 +48,7 @@ pub(crate) fn material(youngs_modulus: f64, poissons_ratio: f64) -> Material {
         youngs_modulus: Some(youngs_modulus),
         poissons_ratio: Some(poissons_ratio),
         thermal: Default::default(),
+        properties: Default::default(),
     }
 }
 
@@ -57,12 +58,8 @@ pub(crate) fn rigid() -> Material {
 }
 
 /// Restitution and friction of all pairs.
-pub(crate) fn properties(restitution: f64, friction: f64) -> PairProperties {
-    PairProperties {
-        restitution: Restitution::new(restitution),
-        friction: NonNegative::new(friction),
-        ..PairProperties::default()
-    }
+pub(crate) fn properties(restitution: f64, friction: f64) -> Properties {
+    Properties::default().with(&property::RESTITUTION, restitution).with(&property::FRICTION, friction)
 }
 
 /// A sphere at rest at the origin, of the first material, with this radius \[m\] and density \[kg/m³\].
@@ -92,6 +89,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
         body: Body::default(),
         outside: Outside::default(),
         temperature: Default::default(),
+        wear: Vec::new(),
     }
 }
 
@@ -100,7 +98,7 @@ pub(crate) fn scene(
     law: LawChoice,
     step: f64,
     materials: Vec<Material>,
-    properties: PairProperties,
+    properties: Properties,
     particles: Vec<Particle>,
 ) -> SceneDraft {
     let pairs = materials.len() * materials.len();
@@ -185,7 +183,7 @@ pub(crate) struct Rebound {
 pub(crate) fn hit(
     law: LawChoice,
     materials: Vec<Material>,
-    properties: PairProperties,
+    properties: Properties,
     mut body: Particle,
     duration: f64,
     steps: u64,

@@ -146,6 +146,7 @@ fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Resu
             body: Body::default(),
             outside: Outside::default(),
             temperature: BoundaryTemperature::None,
+            wear: Vec::new(),
         });
     }
     let held = |member: u32| Boundary {
@@ -158,6 +159,7 @@ fn boundaries(case: &Case, folder: &Path, index_of: &BTreeMap<u32, u32>) -> Resu
         body: Body::default(),
         outside: Outside::default(),
         temperature: BoundaryTemperature::None,
+        wear: Vec::new(),
     };
     all.extend(heat::held(case, index_of, &held)?);
     Ok(all)
@@ -210,6 +212,7 @@ fn boundary(case: &Case, folder: &Path, index: usize, wall: &Wall) -> Result<Bou
         body: Body::default(),
         outside: Outside::default(),
         temperature: heat::of_wall(wall.temperature),
+        wear: Vec::new(),
     })
 }
 
@@ -255,6 +258,7 @@ fn plane(case: &Case, index: usize, wall: &Wall) -> Result<Boundary, Mistake> {
         body: Body::default(),
         outside: Outside::default(),
         temperature: heat::of_wall(wall.temperature),
+        wear: Vec::new(),
     })
 }
 

@@ -8,8 +8,8 @@ use cograin::contact::cohesion::sjkr;
 use cograin::contact::normal::{eepa, hooke, hooke_stiffness, jkr, sticky};
 use cograin::contact::rolling::rocking;
 use cograin::contact::tangential::turned_history::Keys as Turned;
-use cograin::contact::{LawChoice, Material, NoKeys, PairProperties, Scheme, Switches, Thermal};
-use cograin::quantity::{AtLeastOne, NonNegative, PoissonsRatio, Positive, Restitution};
+use cograin::contact::{LawChoice, Material, NoKeys, Properties, Property, Scheme, Switches, Thermal, property};
+use cograin::quantity::{PoissonsRatio, Positive};
 use cograin::scene::Models;
 
 /// The other engine's name of each pair property, with ours.
@@ -70,6 +70,7 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
                 specific_heat: material.specific_heat,
                 real_youngs_modulus: material.real_youngs_modulus,
             },
+            properties: Properties::default(),
         })
     });
     let all: Vec<Material> = all.collect::<Result<_, Mistake>>()?;
@@ -77,9 +78,9 @@ pub(super) fn materials(case: &Case) -> Result<Vec<Material>, Mistake> {
 }
 
 /// Properties of each two materials.
-pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
+pub(super) fn pairs(case: &Case) -> Result<Vec<Properties>, Mistake> {
     let count = case.materials.len();
-    let mut pairs = vec![PairProperties::default(); count * count];
+    let mut pairs = vec![Properties::default(); count * count];
     let own = case.pair_properties.iter().filter(|(name, _)| !bond::has_property(case, name));
     for (name, value) in own {
         let Some((_, ours)) = PROPERTIES.iter().find(|(theirs, _)| theirs == name) else {
@@ -90,8 +91,8 @@ pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
                 value = -value + 0.0; // the engine's is positive where it repels
             }
             let field = || format!("pair_properties.{name}[{}][{}]", at / count, at % count);
-            set(&mut pairs[at], ours, value)
-                .map_err(|expected| Mistake::new(field(), format!("expected {expected}, found {value}")))?;
+            let pair = std::mem::take(&mut pairs[at]);
+            pairs[at] = with(pair, ours, value).map_err(|message| Mistake::new(field(), message))?;
         }
     }
     if case.model.mixing == "lammps" {
@@ -100,14 +101,22 @@ pub(super) fn pairs(case: &Case) -> Result<Vec<PairProperties>, Mistake> {
     Ok(pairs)
 }
 
+/// The properties with a value of one more, where there is one.
+fn given(properties: Properties, property: &'static Property, value: Option<f64>) -> Properties {
+    match value {
+        Some(value) => properties.with(property, value),
+        None => properties,
+    }
+}
+
 /// Gives unlike materials geometric means, and a tangential stiffness from E* and the mean of Poisson's ratios.
-fn mixed(case: &Case, pairs: &mut [PairProperties]) {
+fn mixed(case: &Case, pairs: &mut [Properties]) {
     let count = case.materials.len();
     for (i, j) in (0..count).flat_map(|i| (0..count).map(move |j| (i, j))) {
-        let (a, b) = (pairs[i * count + i], pairs[j * count + j]);
-        let mean = |of: fn(&PairProperties) -> Option<NonNegative>| {
-            let product = of(&a)?.get() * of(&b)?.get();
-            NonNegative::new(if i == j { of(&a)?.get() } else { product.sqrt() })
+        let (a, b) = (pairs[i * count + i].clone(), pairs[j * count + j].clone());
+        let mean = |of: &Property| {
+            let product = a.get(of)? * b.get(of)?;
+            Some(if i == j { a.get(of)? } else { product.sqrt() })
         };
         let stiffness = |material: &super::case::Material| {
             let (modulus, ratio) = (material.youngs_modulus?, material.poissons_ratio?);
@@ -120,18 +129,23 @@ fn mixed(case: &Case, pairs: &mut [PairProperties]) {
             let true_shear = shear(2.0 * (2.0 - nu) * (1.0 + nu) / e + 2.0 * (2.0 - mu) * (1.0 + mu) / f);
             let ratio = (nu * mu).sqrt();
             let own = if i == j { true_shear } else { effective / (4.0 * (2.0 - ratio) * (1.0 + ratio)) };
-            NonNegative::new(8.0 * own)
+            Some(8.0 * own)
         };
-        pairs[i * count + j] = PairProperties {
-            friction: mean(|pair| pair.friction),
-            surface_energy: mean(|pair| pair.surface_energy),
-            damping_coefficient: mean(|pair| pair.damping_coefficient),
-            tangential_damping_ratio: mean(|pair| pair.tangential_damping_ratio),
-            tangential_stiffness: modulus(),
-            conductivity: pairs[i * count + j].conductivity,
-            heat_transfer_coefficient: pairs[i * count + j].heat_transfer_coefficient,
-            ..PairProperties::default()
-        };
+        let own = pairs[i * count + j].clone();
+        let mut mixed = Properties::default();
+        for property in [
+            &property::FRICTION,
+            &property::SURFACE_ENERGY,
+            &property::DAMPING_COEFFICIENT,
+            &property::TANGENTIAL_DAMPING_RATIO,
+        ] {
+            mixed = given(mixed, property, mean(property));
+        }
+        mixed = given(mixed, &property::TANGENTIAL_STIFFNESS, modulus());
+        for property in [&property::CONDUCTIVITY, &property::HEAT_TRANSFER_COEFFICIENT] {
+            mixed = given(mixed, property, own.get(property));
+        }
+        pairs[i * count + j] = mixed;
     }
 }
 
@@ -154,38 +168,12 @@ fn matrix(name: &str, value: &serde_json::Value, count: usize) -> Result<Vec<f64
     Ok(rows.concat())
 }
 
-/// Sets the property with this name of ours, or says what was expected.
-fn set(pair: &mut PairProperties, name: &str, value: f64) -> Result<(), &'static str> {
-    let non_negative = || NonNegative::new(value).map(Some).ok_or("a number of 0 or above");
-    let positive = || Positive::new(value).map(Some).ok_or("a number above 0");
-    let restitution = || Restitution::new(value).map(Some).ok_or("a number above 0 and at most 1");
-    match name {
-        "restitution" => pair.restitution = restitution()?,
-        "friction" => pair.friction = non_negative()?,
-        "rolling_friction" => pair.rolling_friction = non_negative()?,
-        "cohesion_energy_density" => pair.cohesion_energy_density = non_negative()?,
-        "normal_stiffness" => pair.normal_stiffness = non_negative()?,
-        "tangential_stiffness" => pair.tangential_stiffness = non_negative()?,
-        "normal_damping" => pair.normal_damping = non_negative()?,
-        "tangential_damping" => pair.tangential_damping = non_negative()?,
-        "absolute_normal_damping" => pair.absolute_normal_damping = non_negative()?,
-        "absolute_tangential_damping" => pair.absolute_tangential_damping = non_negative()?,
-        "fluid_viscosity" => pair.fluid_viscosity = positive()?,
-        "rolling_viscous_damping" => pair.rolling_viscous_damping = non_negative()?,
-        "surface_energy" => pair.surface_energy = non_negative()?,
-        "damping_coefficient" => pair.damping_coefficient = non_negative()?,
-        "tangential_damping_ratio" => pair.tangential_damping_ratio = non_negative()?,
-        "unloading_stiffness_ratio" => {
-            pair.unloading_stiffness_ratio = AtLeastOne::new(value).map(Some).ok_or("a number of 1 or above")?;
-        }
-        "pull_off_force" => pair.pull_off_force = NonNegative::new(value).map(Some).ok_or("0 or an attraction")?,
-        "adhesion_stiffness_ratio" => pair.adhesion_stiffness_ratio = non_negative()?,
-        "critical_stokes_number" => pair.critical_stokes_number = positive()?,
-        "conductivity" => pair.conductivity = positive()?,
-        "heat_transfer_coefficient" => pair.heat_transfer_coefficient = non_negative()?,
-        _ => pair.maximum_restitution = restitution()?,
-    }
-    Ok(())
+/// The properties with that of this name of ours, or what was expected instead of the value.
+fn with(pair: Properties, name: &str, value: f64) -> Result<Properties, String> {
+    let property = property::STANDARD.iter().find(|property| property.name == name);
+    let property = property.expect("the list above names properties of the program");
+    property.range.check(value)?;
+    Ok(pair.with(property, value))
 }
 
 /// The contact law.

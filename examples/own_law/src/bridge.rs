@@ -111,7 +111,7 @@ impl CohesionForm for Bridge {
 mod tests {
     use super::*;
     use crate::tests::{Coupled, SCENE, assert_close, told};
-    use cograin::contact::{Material, PairProperties};
+    use cograin::contact::{Material, Properties};
 
     /// R* of two spheres of 1 mm \[m\].
     const RADIUS: f64 = 0.5e-3;
@@ -123,8 +123,8 @@ mod tests {
             surface_tension: Positive::new(0.072).unwrap(),
             contact_angle: Angle(0.5),
         };
-        let material = Material { name: "glass".into(), density: 1.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default() };
-        let pair = MaterialPair { a: &material, b: &material, properties: &PairProperties::default() };
+        let material = Material { name: "glass".into(), density: 1.0, youngs_modulus: None, poissons_ratio: None, thermal: Default::default(), properties: Default::default() };
+        let pair = MaterialPair { a: &material, b: &material, properties: &Properties::default() };
         LiquidBridge::between(&pair, &keys).unwrap()
     }
 

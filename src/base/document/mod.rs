@@ -216,12 +216,6 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Reads a table from a text that the program itself has made; `None` where the type refuses it.
-pub(crate) fn read_text<T: DeserializeOwned>(text: &str) -> Option<T> {
-    let root = DeTable::parse(text).ok()?;
-    value::read(&Spanned::new(root.span(), DeValue::Table(root.into_inner()))).ok()
-}
-
 /// The names in a dotted path.
 fn segments(path: &str) -> impl Iterator<Item = &str> {
     let mut quoted = false;

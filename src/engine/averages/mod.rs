@@ -1,17 +1,20 @@
-//! What is in the regions of a scene: found by looking, never in a time step.
+//! What is in the regions and the cells of grids of a scene: found by looking, never in a time step.
 
+mod cells;
+pub(crate) mod look;
 mod probes;
 
+pub use cells::{Count, counts};
 pub use probes::{Sight, sights};
 
 use crate::base::number::Vector;
 use crate::engine::bodies::loads;
-use crate::engine::cell::near::{self, Place};
+use crate::engine::cell::near;
 use crate::engine::simulation::{ContactRecord, Simulation};
 use crate::engine::state::State;
 use crate::engine::state::contacts::is_told;
 use crate::engine::transfer;
-use crate::scene::{ClumpShape, Region};
+use look::{Fullness, Look, inside};
 
 /// Rows of a tensor: first index down, second along.
 pub type Tensor = [[f64; 3]; 3];
@@ -40,6 +43,13 @@ impl Content {
         let trace: f64 = (0..3).map(|axis| self.fluctuation[axis][axis]).sum();
         if self.mass > 0.0 { trace / (3.0 * self.mass) } else { 0.0 }
     }
+
+    /// A component of the stress of what contacts and bonds carry \[J\] and of the velocities less their mean, over a volume \[m³\],
+    /// symmetric \[Pa\].
+    pub fn stress(&self, carried: &Tensor, volume: f64, [row, column]: [usize; 2]) -> f64 {
+        let carried = 0.5 * (carried[row][column] + carried[column][row]);
+        (carried - self.fluctuation[row][column]) / volume
+    }
 }
 
 /// Contacts of the particles in a region.
@@ -60,12 +70,19 @@ impl Coordination {
 
 /// The particles in each region of the scene.
 pub fn contents(simulation: &Simulation) -> Vec<Content> {
-    simulation.scene().regions.iter().map(|region| content(region, simulation)).collect()
+    let looks = looks_at_regions(simulation);
+    looks.iter().flat_map(|look| content(look, simulation)).collect()
+}
+
+/// The particles in each cell of a grid of the scene.
+pub fn contents_of_cells(simulation: &Simulation, grid: usize) -> Vec<Content> {
+    let (scene, state) = (simulation.scene(), simulation.state());
+    content(&Look::at_grid(&scene.grids[grid].shape, scene, state), simulation)
 }
 
 /// Contacts of the particles in each region of the scene.
 pub fn coordination(simulation: &Simulation) -> Vec<Coordination> {
-    simulation.scene().regions.iter().map(|region| coordination_in(region, simulation)).collect()
+    looks_at_regions(simulation).iter().map(|look| coordination_in(look, simulation.state())).collect()
 }
 
 /// What contacts and bonds carry in each region of the scene: −Σ s l ⊗ f \[J\], tension positive; the stress times the volume of
@@ -75,19 +92,30 @@ pub fn coordination(simulation: &Simulation) -> Vec<Coordination> {
 /// contact; s is the part of l that is inside. In a clump the way goes on between the centre of the sphere and the mass centre, where the
 /// forces on the clump meet.
 pub fn carried(simulation: &Simulation) -> Vec<Tensor> {
-    let (regions, state) = (&simulation.scene().regions, simulation.state());
-    let shifts: Vec<Vector> = regions.iter().map(|region| shift(region, state)).collect();
-    let places: Vec<Place> = regions.iter().map(|region| place(region, simulation)).collect();
-    let mut sums = vec![Tensor::default(); regions.len()];
+    carried_in(&looks_at_regions(simulation), simulation).into_iter().flatten().collect()
+}
+
+/// The same in each cell of a grid of the scene.
+pub fn carried_in_cells(simulation: &Simulation, grid: usize) -> Vec<Tensor> {
+    let shape = &simulation.scene().grids[grid].shape;
+    let look = Look::at_grid(shape, simulation.scene(), simulation.state());
+    carried_in(&[look], simulation).swap_remove(0)
+}
+
+/// Looks at all regions.
+fn looks_at_regions(simulation: &Simulation) -> Vec<Look<'_>> {
+    let (scene, state) = (simulation.scene(), simulation.state());
+    scene.regions.iter().map(|region| Look::at_region(region, scene, state)).collect()
+}
+
+/// What contacts and bonds carry in each part of what is looked at.
+fn carried_in(looks: &[Look], simulation: &Simulation) -> Vec<Vec<Tensor>> {
+    let state = simulation.state();
+    let mut sums: Vec<_> = looks.iter().map(|look| vec![Tensor::default(); look.count()]).collect();
     let mut add = |to: Vector, from: Vector, force: Vector| {
-        for (((region, shift), place), sum) in regions.iter().zip(&shifts).zip(&places).zip(&mut sums) {
+        for (look, sums) in looks.iter().zip(&mut sums) {
             let way = to - from;
-            place.meets(to, way.length(), |to| {
-                let share = region.shape.share_of_line(to - way - *shift, to - *shift);
-                if share > 0.0 {
-                    add_product(sum, way * -share, force);
-                }
-            });
+            look.parts_of_line(to, way, |part, share| add_product(&mut sums[part], way * -share, force));
         }
     };
     let row = |index: u32| state.particles.position[state.particles.slot[index as usize] as usize];
@@ -134,60 +162,45 @@ fn add_product(sum: &mut Tensor, a: Vector, b: Vector) {
     }
 }
 
-/// How far a region moved since time 0 \[m\].
-fn shift(region: &Region, state: &State) -> Vector {
-    region.follows.map_or(Vector::zero(), |boundary| state.boundaries[boundary.index()].displacement.into())
-}
-
-/// Where particles meet a region.
-fn place(region: &Region, simulation: &Simulation) -> Place {
-    let shift = shift(region, simulation.state());
-    let corners = region.shape.bounds().map(|corner| (Vector::from(corner) + shift).to_array());
-    Place::of(simulation.scene(), simulation.state(), corners)
-}
-
-/// The particles in a region.
-fn content(region: &Region, simulation: &Simulation) -> Content {
+/// The particles in each part of what is looked at.
+fn content(look: &Look, simulation: &Simulation) -> Vec<Content> {
     let (scene, state) = (simulation.scene(), simulation.state());
-    let (particles, shift, place) = (&state.particles, shift(region, state), place(region, simulation));
-    let fullness: Vec<f64> = scene.clump_shapes.iter().map(ClumpShape::fullness).collect();
+    let particles = &state.particles;
+    let fullness = Fullness::of(scene);
     // A clump moves as a whole: how it turns is no part of the flow, as of a sphere.
     let velocity =
         |slot: usize| state.clump(slot).map_or(particles.velocity[slot], |clump| state.clumps.velocity[clump]);
-    let mut inside = Vec::new();
-    let mut content = Content::default();
-    for slot in near::particles(state) {
-        let (position, mut volume) = (particles.position[slot], 0.0);
-        let radius = position[3];
-        let part = |centre: Vector| volume += region.shape.volume_of_sphere(centre - shift, radius);
-        place.meets(position.into(), radius, part);
-        if volume > 0.0 {
-            let mass = loads::mass_of(scene, (particles, &state.clumps), slot) * (volume / sphere_volume(radius));
-            content.solid +=
-                volume * state.clump(slot).map_or(1.0, |clump| fullness[state.clumps.shape[clump] as usize]);
-            content.mass += mass;
-            for axis in 0..3 {
-                content.velocity[axis] += mass * velocity(slot)[axis];
-            }
-            if let Some(temperature) = transfer::temperature(state, slot) {
-                let capacity = mass * transfer::specific_heat(scene, state, slot);
-                content.heat_capacity += capacity;
-                content.temperature += capacity * temperature;
-            }
-            inside.push((slot, mass));
+    let mut contents = vec![Content::default(); look.count()];
+    let mut masses = Vec::new();
+    for inside in inside(look, state, &simulation.quiet()) {
+        let (slot, content) = (inside.slot as usize, &mut contents[inside.part as usize]);
+        let share = inside.volume / sphere_volume(particles.position[slot][3]);
+        let mass = loads::mass_of(scene, (particles, &state.clumps), slot) * share;
+        content.solid += fullness.volume(state, &inside);
+        content.mass += mass;
+        for axis in 0..3 {
+            content.velocity[axis] += mass * velocity(slot)[axis];
+        }
+        if let Some(temperature) = transfer::temperature(state, slot) {
+            let capacity = mass * transfer::specific_heat(scene, state, slot);
+            content.heat_capacity += capacity;
+            content.temperature += capacity * temperature;
+        }
+        masses.push((slot, inside.part as usize, mass));
+    }
+    for content in &mut contents {
+        if content.mass > 0.0 {
+            content.velocity = content.velocity.map(|momentum| momentum / content.mass);
+        }
+        if content.heat_capacity > 0.0 {
+            content.temperature /= content.heat_capacity;
         }
     }
-    if content.mass > 0.0 {
-        content.velocity = content.velocity.map(|momentum| momentum / content.mass);
+    for (slot, part, mass) in masses {
+        let apart = Vector::from(velocity(slot)) - contents[part].velocity.into();
+        add_product(&mut contents[part].fluctuation, apart * mass, apart);
     }
-    if content.heat_capacity > 0.0 {
-        content.temperature /= content.heat_capacity;
-    }
-    for (slot, mass) in inside {
-        let apart = Vector::from(velocity(slot)) - content.velocity.into();
-        add_product(&mut content.fluctuation, apart * mass, apart);
-    }
-    content
+    contents
 }
 
 /// Volume of a sphere \[m³\].
@@ -195,15 +208,12 @@ fn sphere_volume(radius: f64) -> f64 {
     4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius
 }
 
-/// Contacts of the particles in a region.
-fn coordination_in(region: &Region, simulation: &Simulation) -> Coordination {
-    let (state, place) = (simulation.state(), place(region, simulation));
-    let (particles, shift) = (&state.particles, shift(region, state));
+/// Contacts of the particles in all that is looked at.
+fn coordination_in(look: &Look, state: &State) -> Coordination {
+    let particles = &state.particles;
     let mut inside = vec![0_u64; particles.len()];
     for slot in near::particles(state) {
-        place.meets(particles.position[slot].into(), 0.0, |centre| {
-            inside[slot] += u64::from(region.shape.holds(centre - shift));
-        });
+        look.parts_at(particles.position[slot].into(), |_| inside[slot] += 1);
     }
     let ends = |slots: &[u32], flags: &[u8]| -> u64 {
         let told = slots.iter().zip(flags).filter(|(_, flags)| is_told(**flags));

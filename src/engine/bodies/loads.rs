@@ -5,6 +5,7 @@ use super::{Body, RigidBody};
 use crate::base::lanes::Shared;
 use crate::base::number::Vector;
 use crate::base::threads::Context;
+use crate::engine::fluid::Medium;
 use crate::engine::integration::{Fields, Load, brakes};
 use crate::engine::state::{CellState, Clumps, Particles, State};
 use crate::scene::Scene;
@@ -68,8 +69,14 @@ impl Body<'_> {
 }
 
 /// Puts the whole load on each body. Returns the sum of the damping forces \[N\].
-pub(crate) fn load(fields: &Fields, bodies: &[Option<RigidBody>], state: &mut State, context: &Context) -> [f64; 3] {
-    let on_clumps = if state.clumps.is_empty() { Vector::zero() } else { load_clumps(fields, state, context) };
+pub(crate) fn load(
+    (fields, medium): (&Fields, Option<&Medium>),
+    bodies: &[Option<RigidBody>],
+    state: &mut State,
+    context: &Context,
+) -> [f64; 3] {
+    let none = state.clumps.is_empty();
+    let on_clumps = if none { Vector::zero() } else { load_clumps((fields, medium), state, context) };
     (on_clumps + load_boundaries(fields, bodies, state)).to_array()
 }
 
@@ -94,7 +101,8 @@ fn load_boundaries(fields: &Fields, bodies: &[Option<RigidBody>], state: &mut St
 }
 
 /// The same of clumps, with the loads of their spheres as passes left them.
-fn load_clumps(fields: &Fields, state: &mut State, context: &Context) -> Vector {
+fn load_clumps((fields, medium): (&Fields, Option<&Medium>), state: &mut State, context: &Context) -> Vector {
+    let stream = medium.map(|medium| (medium, medium.stream(state)));
     let State { particles, clumps, .. } = state;
     let count = clumps.len();
     let damps = fields.damps();
@@ -109,8 +117,16 @@ fn load_clumps(fields: &Fields, state: &mut State, context: &Context) -> Vector 
         for clump in piece(number, count) {
             let body = clumps::unloaded(clumps_now, clump);
             let mut load = body.on_spheres(particles);
+            let mut dashpots = [0.0; 2];
             if fields.act_beside_weight() {
                 let motion = [body.rigid.velocity, Vector::from(clumps_now.angular_velocity[clump])];
+                if let Some((medium, stream)) = stream {
+                    let other = body.own_loads(fields, particles).into_iter().fold(load[0], |sum, own| sum + own[0]);
+                    let (diameter, mass) = (medium.diameter(clumps_now, clump), body.rigid.mass);
+                    let flow = stream.on(diameter, motion, (mass, other), 0.5 * context.step);
+                    load = [load[0] + flow.force, load[1] + flow.torque];
+                    dashpots = [flow.drag, flow.turning];
+                }
                 let [whole, brake] = body.whole(fields, particles, (load, motion));
                 (load, sum) = (whole, sum + brake[0]);
                 if damps {
@@ -122,8 +138,8 @@ fn load_clumps(fields: &Fields, state: &mut State, context: &Context) -> Vector 
             }
             // SAFETY: as above.
             unsafe {
-                *force.at(clump) = load[0].row_with(0.0);
-                *moment.at(clump) = load[1].row_with(0.0);
+                *force.at(clump) = load[0].row_with(dashpots[0]);
+                *moment.at(clump) = load[1].row_with(dashpots[1]);
             }
         }
         sum

@@ -39,6 +39,8 @@ pub(crate) struct Rigid<N = f64> {
     pub force: Vector<N>,
     /// Moment \[N m\].
     pub moment: Vector<N>,
+    /// Dashpots of force and moment to the ground, which a fluid has \[kg/s, kg m²/s\].
+    pub dashpots: [N; 2],
 }
 
 impl<N: Number> Rigid<N> {
@@ -58,8 +60,21 @@ impl<N: Number> Rigid<N> {
     /// The same after a kick of this length \[s\].
     #[inline(always)]
     pub(crate) fn kicked(self, length: N) -> Self {
-        let velocity = self.velocity + self.force * (length / self.mass);
-        Self { velocity, momentum: self.momentum + self.moment * length, ..self }
+        let velocity = self.velocity + self.force * (length / (self.mass + length * self.dashpots[0]));
+        Self { velocity, momentum: self.momentum + self.twisted(length), ..self }
+    }
+
+    /// What a kick of this length \[s\] gives to the angular momentum \[kg m²/s\].
+    #[inline(always)]
+    fn twisted(&self, length: N) -> Vector<N> {
+        let twist = self.moment * length;
+        let dashpot = length * self.dashpots[1];
+        if !N::any(dashpot.greater(N::zero())) {
+            return twist;
+        }
+        let share = |inertia: N| inertia / (inertia + dashpot);
+        let (inside, Vector { x, y, z }) = (self.turn.conjugate().turn(twist), self.inertia);
+        self.turn.turn(Vector::new(inside.x * share(x), inside.y * share(y), inside.z * share(z)))
     }
 
     /// The largest speed of a point at most so far from its point of reference \[m\], or above \[m/s\].
@@ -108,7 +123,8 @@ impl<N: Number> Rigid<N> {
 impl Rigid {
     /// The acceleration \[m/s²\] and the angular one \[rad/s²\] that its load gives.
     pub(crate) fn answer(self) -> [Vector; 2] {
-        let answer = Self { velocity: Vector::zero(), momentum: Vector::zero(), ..self }.kicked(1.0);
+        let answer =
+            Self { velocity: Vector::zero(), momentum: Vector::zero(), dashpots: [0.0; 2], ..self }.kicked(1.0);
         [answer.velocity, answer.spin()]
     }
 

@@ -4,6 +4,7 @@ mod ahead;
 pub(crate) mod batches;
 pub(crate) mod coefficients;
 mod encounters;
+pub(crate) mod followed;
 mod listed;
 mod pairs;
 pub(crate) mod particles;

@@ -4,6 +4,7 @@
 //! done. The order in which a particle gets its loads is thus always the same.
 
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
+use super::followed::{self, FollowedPairs, SlabRoom};
 use super::listed::{self, ContactEntries, CurrentContact, ListColumns};
 use super::pairs::Pairs;
 use super::pass::{Pass, Stiffness, Telling};
@@ -33,12 +34,21 @@ pub(crate) struct ContactPass {
     pub law: BatchLaw,
     /// Room for what each slab lost.
     pub lost: Mutex<Vec<Lost>>,
+    /// Who follows its contacts one by one, if anybody does.
+    pub followed: Option<FollowedPairs>,
 }
 
 impl Pass for ContactPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let deepest = DeepestSearch::beyond(state.deepest.overlap);
-        self.evaluate(state, context, &deepest);
+        match &self.followed {
+            None => self.evaluate(state, context, &deepest, None),
+            Some(followed) => {
+                let slabs = state.contacts[self.index].slabs.len().saturating_sub(1);
+                followed
+                    .with(state, slabs, |state, room| self.evaluate(state, context, &deepest, Some((followed, room))));
+            }
+        }
         if let Some(found) = deepest.found() {
             let [particle, partner] = [found.first, found.second].map(|slot| Named::at(&state.particles, slot));
             let (overlap, time) = (found.overlap, state.clock.time);
@@ -61,6 +71,13 @@ impl Pass for ContactPass {
 
     fn take_coefficients(&mut self, state: &State) {
         self.table.take(&state.coefficients[self.index]);
+    }
+
+    fn let_go(&self, state: &mut State, goes: &[bool], _step: f64) -> f64 {
+        if let Some(followed) = &self.followed {
+            followed.let_go((&self.law.law, self.index), state, goes);
+        }
+        0.0
     }
 
     fn prepare(&self, state: &mut State) {
@@ -124,8 +141,14 @@ impl Telling for ContactPass {
 }
 
 impl ContactPass {
-    /// Evaluates the law on all contacts.
-    fn evaluate(&self, state: &mut State, context: &Context, deepest: &DeepestSearch) {
+    /// Evaluates the law on all contacts, which somebody may follow.
+    fn evaluate(
+        &self,
+        state: &mut State,
+        context: &Context,
+        deepest: &DeepestSearch,
+        followed: Option<(&FollowedPairs, SlabRoom)>,
+    ) {
         let list = &mut state.contacts[self.index];
         let particles = &mut state.particles;
         let (heat, present): (&mut [f64], &mut [Row]) =
@@ -152,7 +175,9 @@ impl ContactPass {
             width: context.width,
             deepest,
             conducting,
+            follows: followed.is_some(),
         };
+        let owners = followed::Bodies { material: &particles.material, owner: &particles.owner };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);
         let slabs = ends.len().saturating_sub(1);
         let piece = |slab: usize| {
@@ -175,7 +200,17 @@ impl ContactPass {
         context.slabs(slabs, |slab| {
             let (from, to, ahead) = piece(slab);
             // SAFETY: each slab is done once, and has a place of its own.
-            unsafe { *places.at(slab) = batches.run_booked(from, to, ahead).1 };
+            unsafe {
+                *places.at(slab) = match &followed {
+                    None => batches.run_booked(from, to, ahead).1,
+                    Some((pairs, room)) => {
+                        let room = room.at(slab);
+                        let lost = batches.run_followed(from, to, ahead, &mut room.0).1;
+                        pairs.follow((&self.law.law, context.step), &batches.entries, owners, room);
+                        lost
+                    }
+                };
+            }
         });
         lost.iter().for_each(|lost| lost.book(&self.law.law, losses));
     }

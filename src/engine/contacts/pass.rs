@@ -62,8 +62,8 @@ pub(crate) trait Pass: Stiffness + Telling + Send + Sync {
     /// The kind of force it is, for the energy book.
     fn source(&self) -> Source;
 
-    /// Books what bonds of particles (slots) that go did in the first half of the present time step \[s\]. Returns the elastic energy
-    /// that they gave in it: their force acted as long \[J\].
+    /// Ends the contacts of particles (slots) that go, and books what their bonds did in the first half of the present time step \[s\].
+    /// Returns the elastic energy that those gave in it: their force acted as long \[J\].
     fn let_go(&self, _state: &mut State, _goes: &[bool], _step: f64) -> f64 {
         0.0
     }

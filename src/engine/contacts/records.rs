@@ -118,9 +118,11 @@ impl Motion {
                 spin[axis] -= twist[axis];
             }
         } else {
+            let (force, torque, half) = (particles.force[original], particles.torque[original], 0.5 * step);
+            let (kick, twist) = (half / (velocity[3] + half * force[3]), half / (spin[3] + half * torque[3]));
             for axis in 0..3 {
-                velocity[axis] -= 0.5 * step / velocity[3] * particles.force[original][axis];
-                spin[axis] -= 0.5 * step / spin[3] * particles.torque[original][axis];
+                velocity[axis] -= kick * force[axis];
+                spin[axis] -= twist * torque[axis];
             }
         }
         (velocity, spin)

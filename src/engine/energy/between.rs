@@ -5,6 +5,7 @@
 use super::{multiply, plus, row};
 use crate::base::lanes::{self, Kernel, Lane, Width};
 use crate::engine::contacts::Pass;
+use crate::engine::integration::mobility;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Particles, Row, State, WallContacts};
 
@@ -86,18 +87,18 @@ impl PendingWork {
     }
 
     /// Products of the loads of surfaces with velocities and with accelerations, if surfaces follow another kind of force. `gravity`
-    /// \[m/s²\] is given where the weight is not yet among the loads.
+    /// \[m/s²\] is given where the weight is not yet among the loads. The half kick lasts so long \[s\].
     pub(super) fn of_walls(
         &mut self,
         particles: &Particles,
         walls: &[WallContacts],
         gravity: Option<[f64; 3]>,
-        width: Width,
+        (half, width): (f64, Width),
     ) -> Option<[Row; 2]> {
         let (before, fields) = (&mut self.walls, self.fields.rows());
         let mut sums = [[0.0; 4]; 2];
         let gravity = row(gravity.unwrap_or_default());
-        lanes::run(width, WallLoads { particles, walls, fields, gravity, before, sums: &mut sums });
+        lanes::run(width, WallLoads { particles, walls, fields, gravity, half, before, sums: &mut sums });
         before.stored.then_some(sums)
     }
 }
@@ -118,6 +119,8 @@ struct WallLoads<'a, 'b> {
     fields: Option<[&'a [Row]; 2]>,
     /// Gravity that is not yet among the forces \[m/s²\].
     gravity: Row,
+    /// Length of the half kick \[s\].
+    half: f64,
     /// Loads before surfaces acted.
     before: &'b mut Loads,
     /// Products of the loads of surfaces with velocities and with accelerations.
@@ -127,7 +130,7 @@ struct WallLoads<'a, 'b> {
 impl Kernel for WallLoads<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { particles, walls, fields, gravity, before, sums } = self;
+        let Self { particles, walls, fields, gravity, half, before, sums } = self;
         let Loads { stored: true, force: forces, torque: torques } = before else { return };
         let mut found = [[0.0; 4]; 2];
         for list in walls {
@@ -144,8 +147,8 @@ impl Kernel for WallLoads<'_, '_> {
                     // Who is met again was counted.
                     (forces[slot], torques[slot]) = (*after[0], *after[1]);
                     let (velocity, spin) = (&particles.velocity[slot], &particles.angular_velocity[slot]);
-                    let acceleration = plus(&gravity, loads[0], 1.0 / velocity[3]);
-                    let turning = plus(&[0.0; 4], loads[1], 1.0 / spin[3]);
+                    let acceleration = plus(&gravity, loads[0], mobility(velocity, loads[0], half));
+                    let turning = plus(&[0.0; 4], loads[1], mobility(spin, loads[1], half));
                     multiply(&mut found, [&pushed, &turned], [[velocity, spin], [&acceleration, &turning]]);
                 }
             }

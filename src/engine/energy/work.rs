@@ -9,7 +9,7 @@ use super::{dot, multiply, plus, row};
 use crate::base::lanes::{self, Kernel, Lane};
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::bodies::{RigidBody, book};
-use crate::engine::integration::Fields;
+use crate::engine::integration::{Fields, mobility};
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Particles, Row, State};
 
@@ -47,11 +47,11 @@ fn book_particles(
     let State { particles, walls, ledger: Some(ledger), .. } = state else { return };
     let particles = &*particles;
     let half = 0.5 * context.step;
-    let of_walls = between.of_walls(particles, walls, gravity, context.width);
+    let of_walls = between.of_walls(particles, walls, gravity, (half, context.width));
     let between = &*between;
     let on_piece = |piece: usize| {
         let mut sums = Sums::default();
-        lanes::run(context.width, OnPiece { particles, between, fields, gravity, piece, sums: &mut sums });
+        lanes::run(context.width, OnPiece { particles, between, fields, gravity, half, piece, sums: &mut sums });
         sums.powers(between, fields)
     };
     let add = |(mut sum, turned_over): (Powers, f64), part: Powers| {
@@ -156,6 +156,8 @@ struct OnPiece<'a, 'b> {
     fields: &'a Fields,
     /// Gravity that is not yet among the forces \[m/s²\].
     gravity: Option<[f64; 3]>,
+    /// Length of the half kick \[s\].
+    half: f64,
     /// Which piece.
     piece: usize,
     /// What is found.
@@ -165,7 +167,7 @@ struct OnPiece<'a, 'b> {
 impl Kernel for OnPiece<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { particles, between, fields, gravity, piece, sums } = self;
+        let Self { particles, between, fields, gravity, half, piece, sums } = self;
         let (mut found, gravity) = (Sums::default(), row(gravity.unwrap_or_default()));
         let (bonds, passes) = (between.bonds.rows(), between.fields.rows());
         let (applies, damps) = (fields.applies(), fields.damps());
@@ -178,8 +180,9 @@ impl Kernel for OnPiece<'_, '_> {
             if *owner != 0 {
                 continue;
             }
-            let acceleration = plus(&gravity, force, 1.0 / velocity[3]);
-            let motion = [[velocity, spin], [&acceleration, &plus(&[0.0; 4], torque, 1.0 / spin[3])]];
+            let acceleration = plus(&gravity, force, mobility(velocity, force, half));
+            let turning = plus(&[0.0; 4], torque, mobility(spin, torque, half));
+            let motion = [[velocity, spin], [&acceleration, &turning]];
             let passed = passes.map_or([force, torque], |[forces, torques]| [&forces[slot], &torques[slot]]);
             multiply(&mut found.passes, passed, motion);
             if let Some([forces, torques]) = bonds {

@@ -1,5 +1,6 @@
 //! Cundall's damping of one component, and what it takes.
 
+use super::mobility;
 use crate::base::number::Vector;
 use crate::engine::state::Row;
 
@@ -35,7 +36,7 @@ pub(crate) fn brakes(fraction: f64, load: Vector, velocity: [f64; 3]) -> [f64; 3
 /// kick from those after it, over the length of that step \[W\] and over its square \[W/s\].
 #[inline(always)]
 pub(super) fn taken(damping: [f64; 3], motion: &Row, load: &Row, step: f64) -> [f64; 3] {
-    let per_inertia = 1.0 / motion[3];
+    let per_inertia = mobility(motion, load, 0.5 * step);
     let (mut now, mut power, mut growth) = (0.0, 0.0, 0.0);
     for axis in 0..3 {
         let acceleration = load[axis] * per_inertia;

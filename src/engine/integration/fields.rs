@@ -25,6 +25,8 @@ pub(crate) struct Fields {
     pub(super) newcomers: Damped,
     /// Damping of surfaces that forces move.
     pub(super) surfaces: Damped,
+    /// Whether the particles are in a fluid: its dashpots resist weight, too.
+    in_fluid: bool,
 }
 
 impl Fields {
@@ -58,7 +60,8 @@ impl Fields {
             newcomers = Damped { linear, angular, gravity: set.gravity_damped, applied: set.applied_forces_damped };
         }
         let damps = !scene.damping.is_empty();
-        Self { gravity: scene.gravity, applied, damping, damps, newcomers, surfaces: Damped::default() }
+        let (surfaces, in_fluid) = (Damped::default(), scene.fluid.is_some());
+        Self { gravity: scene.gravity, applied, damping, damps, newcomers, surfaces, in_fluid }
     }
 
     /// By which factors Cundall's damping makes force and torque on a particle of the scene larger, at most: where the motion
@@ -91,7 +94,7 @@ impl Fields {
 
     /// Gravity \[m/s²\], if nothing else acts: it is then added by the kick that follows.
     pub(crate) fn weight_alone(&self) -> Option<[f64; 3]> {
-        let alone = !self.damps && self.applied.is_empty();
+        let alone = !self.act_beside_weight();
         (alone && self.gravity != [0.0; 3]).then_some(self.gravity)
     }
 
@@ -100,9 +103,9 @@ impl Fields {
         self.damps || self.applies() || self.gravity != [0.0; 3]
     }
 
-    /// Whether anything but gravity does.
+    /// Whether weight is among the forces before the kick.
     pub(crate) fn act_beside_weight(&self) -> bool {
-        self.damps || self.applies()
+        self.damps || self.applies() || self.in_fluid
     }
 
     /// Adds everything to the forces, damping in its place. Returns the sum of the damping forces \[N\].

@@ -1,4 +1,7 @@
 //! Velocity Verlet: half a step of velocity (a kick), a step of position (the drift), forces, the other half of the kick.
+//!
+//! Behind each load stands its dashpot to the ground, which a fluid writes; 0 without one. A load F that holds −β v gives in half a kick
+//! Δt/2 F/(m + Δt/2 β): both half kicks together see the mean of the velocities before and after, whatever the step.
 
 mod braking;
 mod damped;
@@ -152,14 +155,14 @@ impl HalfKick for First<'_> {
         let half = N::splat(0.5 * self.step);
         // SAFETY: the caller's promise.
         unsafe {
-            let ((v, mass), (f, _)) = (load::<N>(velocity, slot), load(force, slot));
-            let v = v + f * (half / mass);
+            let ((v, mass), (f, drag)) = (load::<N>(velocity, slot), load(force, slot));
+            let v = v + f * (half / (mass + half * drag));
             store(velocity, slot, v, mass);
             let (place, radius) = load(position, slot);
             store(position, slot, place + v * step, radius);
             if self.turning {
-                let ((w, inertia), (t, _)) = (load::<N>(spin, slot), load(torque, slot));
-                store(spin, slot, w + t * (half / inertia), inertia);
+                let ((w, inertia), (t, drag)) = (load::<N>(spin, slot), load(torque, slot));
+                store(spin, slot, w + t * (half / (inertia + half * drag)), inertia);
             }
             self.clear(slot, N::WIDTH);
             let square = v.dot(v);
@@ -214,12 +217,12 @@ struct Second<'a> {
 }
 
 impl Second<'_> {
-    /// Loads the forces, with the weight.
+    /// Loads the forces, with the weight, and their dashpots to the ground.
     ///
     /// # Safety
     /// As for [`HalfKick::free`].
     #[inline(always)]
-    unsafe fn weigh<N: Lane>(&self, slot: usize, mass: N) -> Vector<N> {
+    unsafe fn weigh<N: Lane>(&self, slot: usize, mass: N) -> (Vector<N>, N) {
         // SAFETY: the caller's promise.
         unsafe {
             let (mut force, rest) = load::<N>(self.rows.force, slot);
@@ -227,7 +230,7 @@ impl Second<'_> {
                 force += Vector::new(N::splat(x), N::splat(y), N::splat(z)) * mass;
                 store(self.rows.force, slot, force, rest);
             }
-            force
+            (force, rest)
         }
     }
 }
@@ -245,7 +248,8 @@ impl HalfKick for Second<'_> {
         // SAFETY: the caller's promise.
         unsafe {
             let (v, mass) = load::<N>(velocity, slot);
-            let change = self.weigh(slot, mass) * (half / mass);
+            let (force, drag) = self.weigh(slot, mass);
+            let change = force * (half / (mass + half * drag));
             let v = v + change;
             store(velocity, slot, v, mass);
             let next = v + change;
@@ -254,8 +258,8 @@ impl HalfKick for Second<'_> {
             // Zero times what is finite is zero; times anything else it is not a number.
             *check = *check + square * N::zero();
             if self.turning {
-                let ((w, inertia), (t, _)) = (load::<N>(spin, slot), load(torque, slot));
-                let w = w + t * (half / inertia);
+                let ((w, inertia), (t, drag)) = (load::<N>(spin, slot), load(torque, slot));
+                let w = w + t * (half / (inertia + half * drag));
                 store(spin, slot, w, inertia);
                 *check = *check + (w.x + w.y + w.z) * N::zero();
             }
@@ -277,16 +281,24 @@ pub(crate) fn coming_speed(particles: &Particles, step: f64) -> f64 {
     let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
     let squares = free.map(|slot| {
         let velocity = particles.velocity[slot];
-        let next = plus(velocity, particles.force[slot], 0.5 * step / velocity[3]);
+        let force = particles.force[slot];
+        let next = plus(velocity, force, 0.5 * step * mobility(&velocity, &force, 0.5 * step));
         next[0] * next[0] + next[1] * next[1] + next[2] * next[2]
     });
     squares.fold(0.0, f64::max).sqrt()
 }
 
-/// A row plus a multiple of another. The fourth number of a load is 0: that of a velocity stays.
+/// A row plus a multiple of the vector of another.
 #[inline(always)]
 fn plus(row: Row, other: Row, factor: f64) -> Row {
-    [row[0] + factor * other[0], row[1] + factor * other[1], row[2] + factor * other[2], row[3] + factor * other[3]]
+    [row[0] + factor * other[0], row[1] + factor * other[1], row[2] + factor * other[2], row[3]]
+}
+
+/// What a half kick of this length \[s\] gives for a unit load and a unit of time: behind a velocity stands the mass, behind the force on it
+/// its dashpot to the ground, which resists with the mean of the velocities before and after both half kicks \[1/kg\]. The same of rotation.
+#[inline(always)]
+pub(crate) fn mobility(motion: &Row, load: &Row, length: f64) -> f64 {
+    1.0 / (motion[3] + length * load[3])
 }
 
 /// The rows that integration reads and writes.
@@ -320,6 +332,8 @@ pub(crate) struct ParticleRows<'a> {
     pub torque: &'a mut Row,
     /// Its slot.
     pub slot: usize,
+    /// What moves it.
+    pub owner: u32,
 }
 
 impl<'a> Rows<'a> {
@@ -361,6 +375,7 @@ impl<'a> Rows<'a> {
                 force: self.force.at(slot),
                 torque: self.torque.at(slot),
                 slot,
+                owner: self.owner[slot],
             }
         }
     }

@@ -4,6 +4,7 @@ use super::pace::{BETWEEN_LOOKS, Seen};
 use super::{RunError, Simulation};
 use crate::base::threads::{Context, Threads};
 use crate::engine::boundaries::{course, nodes};
+use crate::engine::fluid;
 use crate::engine::state::Underway;
 use crate::engine::state::clock::MOST_STEPS;
 use crate::engine::transfer::{self, Transfer};
@@ -43,6 +44,7 @@ impl Simulation {
         course::end(&mut self.state, elapsed);
         nodes::end(&mut self.state, elapsed);
         transfer::end(self.state.heat.as_mut(), elapsed);
+        fluid::end(self.state.fluid.as_mut(), elapsed);
         transfer::tell(&self.scene, &mut self.state);
         if let Some(cell) = &self.cell {
             cell.end(&mut self.state, elapsed);
@@ -76,10 +78,14 @@ impl Simulation {
         course::begin(&self.scene, &mut self.state, interval)?;
         nodes::begin(&self.scene, &mut self.state, interval);
         transfer::begin(self.state.heat.as_mut(), interval);
+        fluid::begin(self.state.fluid.as_mut(), interval);
         if let Some(cell) = &self.cell {
             cell.begin(&mut self.state, interval)?;
         }
         self.state.breaks.clear();
+        if let Some(traces) = &mut self.state.traces {
+            traces.impacts.clear();
+        }
         if let Some(flow) = &self.flow {
             flow.begin(&mut self.state, interval);
         }

@@ -9,14 +9,17 @@ use crate::engine::cell::Cell;
 use crate::engine::contacts::Pass;
 use crate::engine::contacts::batches::BatchLaw;
 use crate::engine::contacts::coefficients::{self, CoefficientTable};
+use crate::engine::contacts::followed::FollowedPairs;
 use crate::engine::contacts::particles::ContactPass;
 use crate::engine::contacts::surfaces::SurfacePass;
 use crate::engine::flow;
+use crate::engine::fluid;
 use crate::engine::neighbours;
 use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Deepest, Foresight, Ledger, Losses, Neighbours, Nodes, Pace,
     Particles, State, WallContacts,
 };
+use crate::engine::traces;
 use crate::engine::transfer;
 use crate::scene::{Boundary, Particle, Scene};
 use std::sync::Mutex;
@@ -49,6 +52,8 @@ pub(super) fn state(scene: &Scene) -> State {
         cell: Cell::begun(scene),
         clumps: ClumpBodies::begun(scene),
         heat: transfer::begun(scene),
+        fluid: fluid::begun(scene),
+        traces: traces::begun(scene),
         particles,
     }
 }
@@ -169,5 +174,6 @@ fn between_particles(scene: &Scene, index: usize) -> ContactPass {
         table: CoefficientTable::of(law, scene),
         law: BatchLaw::of_scene(scene, index),
         lost: Mutex::default(),
+        followed: FollowedPairs::of(scene),
     }
 }

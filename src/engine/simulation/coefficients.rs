@@ -4,7 +4,7 @@ use super::Simulation;
 use crate::base::quantity::MaterialIndex;
 use crate::engine::state::ledger::Source;
 use crate::laws::bond::keys::KeyError;
-use crate::laws::contact::{MaterialPair, Missing, PairProperties};
+use crate::laws::contact::{MaterialPair, Missing, Properties};
 
 /// Why parameters were not changed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -65,7 +65,7 @@ impl Simulation {
     pub fn set_pair_properties(
         &mut self,
         pair: [MaterialIndex; 2],
-        properties: &PairProperties,
+        properties: &Properties,
     ) -> Result<(), Vec<Missing>> {
         let rows = self.pair_rows(pair, properties)?;
         self.give(vec![rows]);
@@ -73,7 +73,7 @@ impl Simulation {
     }
 
     /// What contact laws make of the properties of two materials.
-    fn pair_rows(&self, pair: [MaterialIndex; 2], properties: &PairProperties) -> Result<PairRows, Vec<Missing>> {
+    fn pair_rows(&self, pair: [MaterialIndex; 2], properties: &Properties) -> Result<PairRows, Vec<Missing>> {
         let ([a, b], count) = (pair.map(MaterialIndex::index), self.scene.materials.len());
         let materials = MaterialPair { a: &self.scene.materials[a], b: &self.scene.materials[b], properties };
         let governing = self.scene.contacts.iter().enumerate().filter(|(_, law)| law.between[a * count + b]);

@@ -12,6 +12,7 @@ use crate::engine::cell::Cell;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy::PendingWork;
 use crate::engine::flow::Flow;
+use crate::engine::fluid::Medium;
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
 use crate::engine::state::{Foresight, Pace, State, StateFault};
@@ -43,7 +44,8 @@ impl Simulation {
     /// The scene in a state of its own.
     pub(super) fn with(scene: Arc<Scene>, state: State) -> Self {
         let passes = assemble::passes(&scene);
-        let turning = passes.iter().any(|pass| pass.has_torque());
+        let medium = Medium::of(&scene);
+        let turning = passes.iter().any(|pass| pass.has_torque()) || medium.as_ref().is_some_and(Medium::has_torque);
         let flow = Flow::of(&scene, passes.iter().any(|pass| pass.needs_orientations()));
         let workspace = Workspace { between: PendingWork::of(&passes), ..Workspace::default() };
         let mut simulation = Self {
@@ -56,6 +58,7 @@ impl Simulation {
             cell: Cell::of(&scene),
             shapes: ClumpBodies::of(&scene),
             flow,
+            medium,
             transfer: Transfer::of(&scene),
             errors: ErrorCurve::default(),
             search: neighbours::Search::of(&scene),

@@ -38,6 +38,8 @@ pub enum Input {
     Strain(usize),
     /// The temperature of a boundary or of one of its nodes, by its number from 0, or the heat flow into a boundary from the outside.
     Heat(BoundaryIndex, Option<usize>),
+    /// Of a component of the velocity of the fluid.
+    Fluid(usize),
 }
 
 /// Why there is no derivative.
@@ -140,6 +142,7 @@ impl Simulation {
                 let surface = state.heat.as_mut().and_then(|heat| heat.surface_mut(boundary.index(), node));
                 surface.map(|surface| &mut surface.target)
             }
+            Input::Fluid(axis) => state.fluid.as_mut().map(|fluid| &mut fluid.target[axis]),
             Input::Strain(component) => state.cell.as_mut().map(|cell| &mut cell.target[component]),
             Input::Rate(insertion) => {
                 state.exchange.as_mut().and_then(|it| it.feeds.get_mut(insertion)).map(|feed| &mut feed.rate)
@@ -161,6 +164,7 @@ impl Simulation {
             Input::Node(boundary, _, axis) => (boundary, axis),
             Input::Rate(insertion) => return part * self.usual_rate(insertion, length),
             Input::Strain(component) => return self.usual_strain(component, part),
+            Input::Fluid(_) => return run.derivative_displacement * self.usual_fluid(length),
             Input::Heat(boundary, _) => return run.derivative_displacement * self.usual_heat(boundary, length),
         };
         let CurrentContact { overlap, radius, arm } = self.met_by(boundary);
@@ -211,6 +215,14 @@ impl Simulation {
         let boundary = &heat.boundaries[boundary.index()];
         let warmer = WARMER * boundary.temperature();
         if boundary.capacity > 0.0 { boundary.capacity * warmer / length } else { warmer }
+    }
+
+    /// By how much the velocity of the fluid is displaced in a communication step of this length \[s\]: a part of the speeds in it, or of what takes a
+    /// particle past its radius. Drag follows it smoothly.
+    fn usual_fluid(&self, length: f64) -> f64 {
+        let flow = self.state.fluid.as_ref().map_or(0.0, |fluid| Vector::from(fluid.velocity).length());
+        let speed = flow.max(self.system().fastest()).max(self.search.smallest_radius().min(f64::MAX) / length);
+        WARMER * speed
     }
 
     /// The rate of an insertion, or that of one particle in a communication step of this length \[s\] where that is more.

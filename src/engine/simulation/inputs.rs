@@ -86,6 +86,20 @@ impl Simulation {
         }
     }
 
+    /// Sets a component of the velocity of the fluid for the end of the next interval \[m/s\].
+    pub fn set_fluid(&mut self, axis: usize, value: f64) {
+        if let Some(fluid) = &mut self.state.fluid {
+            (fluid.target[axis], fluid.target_rate[axis]) = (value, 0.0);
+        }
+    }
+
+    /// The rate of that value over the next interval \[m/s²\].
+    pub fn set_fluid_rate(&mut self, axis: usize, rate: f64) {
+        if let Some(fluid) = &mut self.state.fluid {
+            fluid.target_rate[axis] = rate;
+        }
+    }
+
     /// The second derivative of that value over the next interval, along x, y or z: the axis then moves at this acceleration, and ends
     /// at the value plus rate × interval + ½ acceleration × interval² \[m/s²\].
     pub fn set_input_acceleration(&mut self, boundary: BoundaryIndex, axis: usize, acceleration: f64) {

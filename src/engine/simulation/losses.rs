@@ -46,7 +46,12 @@ impl Simulation {
         let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
         let given: f64 = self.state.works().sum();
         let grown = kinetic - book.initial_kinetic + elastic - book.initial_elastic + potential;
-        Some(grown + losses.iter().sum::<f64>() - given - book.given_to_bodies)
+        Some(grown + losses.iter().sum::<f64>() - given - book.given_to_bodies - self.work_of_fluid())
+    }
+
+    /// Work of the fluid since the start \[J\].
+    fn work_of_fluid(&self) -> f64 {
+        self.state.fluid.as_ref().map_or(0.0, |fluid| fluid.work)
     }
 
     /// Energy that came out of nothing by the book of losses, and all that was turned over \[J\]: what nothing accounts for, and
@@ -59,7 +64,7 @@ impl Simulation {
         let given: f64 = damping.into_iter().map(|loss| (-losses[loss as usize]).max(0.0)).sum();
         let potential = losses::potential(&self.state, &self.fields) - book.initial_potential;
         let works = self.state.works();
-        let parts = [book.initial_kinetic, book.initial_elastic, potential, book.given_to_bodies];
+        let parts = [book.initial_kinetic, book.initial_elastic, potential, book.given_to_bodies, self.work_of_fluid()];
         let scale = parts.into_iter().chain(works).chain(losses).map(f64::abs).sum();
         Some([residual + given, scale])
     }

@@ -54,6 +54,7 @@ use crate::engine::contacts::Pass;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy;
 use crate::engine::flow::Flow;
+use crate::engine::fluid::Medium;
 use crate::engine::integration::Fields;
 use crate::engine::neighbours;
 use crate::engine::stability::Vibrations;
@@ -94,6 +95,8 @@ pub struct Simulation {
     shapes: Option<ClumpBodies>,
     /// What lets heat flow, where any does.
     transfer: Option<Transfer>,
+    /// The fluid, where the scene has one.
+    medium: Option<Medium>,
     /// What lets particles come and go; none where their number stays.
     flow: Option<Flow>,
     /// Whether anything turns the particles.

@@ -248,7 +248,7 @@ impl Simulation {
     }
 
     /// A context for reading.
-    fn quiet(&self) -> Context<'static> {
+    pub(crate) fn quiet(&self) -> Context<'static> {
         Context { step: 0.0, width: self.width, threads: None }
     }
 }

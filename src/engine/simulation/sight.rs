@@ -85,7 +85,7 @@ impl Simulation {
         let streaming = self.cell.as_ref().map_or(0.0, |cell| cell.speed(&self.state));
         let driven = boundaries.iter().copied().fold(streaming, f64::max);
         let answer = self.acceleration();
-        let acceleration = self.fields.acceleration(&self.state.particles);
+        let acceleration = self.acceleration_of_fields();
         let least = self.search.smallest_radius().min(f64::MAX);
         let mean = self.mean_overlap();
         // Strain comes whatever the bodies do.

@@ -5,6 +5,7 @@ use crate::base::threads::Context;
 use crate::engine::bodies::boundary;
 use crate::engine::boundaries::{course, nodes, placing};
 use crate::engine::flow;
+use crate::engine::fluid;
 use crate::engine::state::{BoundaryState, State};
 use crate::engine::transfer;
 use crate::scene::{AxisMotion, Scene};
@@ -76,6 +77,7 @@ impl Simulation {
             moves |= cell.put(&mut self.state, given);
         }
         loads |= transfer::put(&self.scene, self.state.heat.as_mut(), inputs.heat.as_ref());
+        loads |= fluid::put(&self.scene, self.state.fluid.as_mut(), inputs.fluid.as_ref());
         if moves {
             boundary::place_groups(&self.scene, &self.bodies, &mut self.state);
             self.rebuild(&self.standing());
@@ -103,6 +105,9 @@ impl Simulation {
             for (surface, given) in heat.surfaces_mut().zip(given.surfaces()) {
                 (surface.target, surface.target_rate) = (given.target, given.target_rate);
             }
+        }
+        if let (Some(fluid), Some(given)) = (&mut self.state.fluid, &other.state.fluid) {
+            (fluid.target, fluid.target_rate) = (given.target, given.target_rate);
         }
         take_rates(&mut self.state, &other.state);
     }

@@ -39,7 +39,7 @@ impl Simulation {
     /// The time step in which nothing moves farther than a part of the smallest radius: as fast as it is and as particles come, and
     /// with what gravity, applied forces and the loads of bodies add in it \[s\].
     fn longest_by_motion(&self) -> f64 {
-        let Self { scene, state, bodies, fields, .. } = self;
+        let Self { scene, state, bodies, .. } = self;
         let way = MOST_WAY[0] * self.search.smallest_radius();
         let coming = scene.insertions.iter().map(Insertion::fastest).fold(0.0, f64::max);
         let speed = state.clock.speed.max(self.boundary_speed()).max(coming);
@@ -47,9 +47,15 @@ impl Simulation {
             let body = body.as_ref().filter(|body| body.is_free())?;
             Some(body.acceleration(moved, body.farthest))
         });
-        let acceleration = free.fold(fields.acceleration(&state.particles), f64::max);
+        let acceleration = free.fold(self.acceleration_of_fields(), f64::max);
         let strained = self.cell.as_ref().map_or(f64::INFINITY, |cell| cell.longest_step(state));
         strained.min(2.0 * way / (speed + (speed * speed + 2.0 * acceleration * way).sqrt()))
+    }
+
+    /// Largest acceleration that gravity, applied forces and the fluid give \[m/s²\].
+    pub(super) fn acceleration_of_fields(&self) -> f64 {
+        let fluid = self.medium.as_ref().map_or(0.0, |medium| medium.stream(&self.state).acceleration(&self.state));
+        self.fields.acceleration(&self.state.particles) + fluid
     }
 
     /// Whether what moves fastest goes too far in an automatic time step of this length \[s\].

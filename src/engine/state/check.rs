@@ -13,7 +13,7 @@ use super::{
 };
 
 /// Steps, bonds and the like are counted up to here; more cannot be, and sums of them must not overflow.
-const MOST: u64 = 1 << 48;
+pub(super) const MOST: u64 = 1 << 48;
 
 /// Why a state cannot be one of its scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -119,6 +119,11 @@ impl State {
         if let (Some(heat), Some(other)) = (&self.heat, &other.heat) {
             heat.check(other, self.particles.slot.len(), self.exchange.is_none())?;
         }
+        demand(self.fluid.is_some() == other.fluid.is_some(), "fluid", 0, "a fluid where the scene has one")?;
+        demand(self.traces.is_some() == other.traces.is_some(), "traces", 0, "traces where the scene asks for them")?;
+        if let (Some(traces), Some(other)) = (&self.traces, &other.traces) {
+            traces.check(other, self.particles.slot.len())?;
+        }
         let same = "as many as the scene has";
         let declared = self.particles.declared.len();
         demand(declared == other.particles.declared.len(), "declared", declared, same)?;
@@ -179,6 +184,8 @@ impl State {
         self.nodes.iter().try_for_each(Nodes::check)?;
         self.ledger.iter().try_for_each(|ledger| ledger.check(self.boundaries.len(), self.clumps.len()))?;
         self.losses.iter().try_for_each(Losses::check)?;
+        self.fluid.iter().try_for_each(super::FluidState::check)?;
+        self.check_dashpots()?;
         all_finite(&[self.deepest.overlap, self.deepest.time], "deepest")?;
         let is_there = self.deepest.boundary.is_none_or(|boundary| (boundary as usize) < self.boundaries.len());
         demand(is_there, "deepest", 0, "a boundary of the scene")?;
@@ -193,6 +200,16 @@ impl State {
         }
         let stay = self.exchange.is_some() || self.particles.slot.len() + images == count;
         demand(stay, "slot", self.particles.slot.len(), "one for each particle")
+    }
+}
+
+impl State {
+    /// Whether loads have dashpots to the ground where there is a fluid alone, and none that drives.
+    fn check_dashpots(&self) -> Result<(), StateFault> {
+        let loads = [&self.particles.force, &self.particles.torque, &self.clumps.force, &self.clumps.moment];
+        let flows = self.fluid.is_some();
+        let sound = loads.into_iter().flatten().map(|row| row[3] == 0.0 || (flows && row[3] > 0.0));
+        demand_all(sound, "force", "0 behind each load, or in a fluid a dashpot above 0")
     }
 }
 
@@ -268,8 +285,6 @@ impl Particles {
             _ => self.slot.get(id as usize) == Some(&(slot as u32)),
         });
         demand_all(numbers, "id", "each particle in one slot")?;
-        let loads = self.force.iter().chain(&self.torque).map(|row| row[3] == 0.0);
-        demand_all(loads, "force", "0 behind each load")?;
         self.check_energy()
     }
 

@@ -22,6 +22,8 @@ pub enum Source {
     Support,
     /// The streaming motion of a periodic cell that is deformed.
     Cell,
+    /// Drag and buoyancy of the fluid.
+    Fluid,
 }
 
 impl Source {
@@ -37,9 +39,10 @@ impl Source {
         Self::Applied,
         Self::Support,
         Self::Cell,
+        Self::Fluid,
     ];
     /// How many there are.
-    pub const COUNT: usize = 8;
+    pub const COUNT: usize = 9;
 
     /// Its name in outputs.
     pub fn name(self) -> &'static str {
@@ -52,6 +55,7 @@ impl Source {
             Self::Applied => "applied",
             Self::Support => "support",
             Self::Cell => "cell",
+            Self::Fluid => "fluid",
         }
     }
 }
@@ -95,6 +99,12 @@ impl Ledger {
     /// Counts work from here.
     pub(super) fn begin_counting(&mut self) {
         (self.work, self.turnover) = ([0.0; Source::COUNT], 0.0);
+    }
+
+    /// Books what the fluid did to the bodies that forces move \[J\].
+    pub(crate) fn book_fluid(&mut self, work: f64) {
+        self.work[Source::Fluid as usize] += work;
+        self.turnover += work.abs();
     }
 
     /// Work of one kind of force \[J\].

@@ -30,13 +30,15 @@ pub enum Loss {
     BondRelease,
     /// Cundall's global damping.
     GlobalDamping,
+    /// Drag of the fluid.
+    Drag,
     /// Particles that went, less what came with others: kinetic, elastic and potential energy.
     Removed,
 }
 
 impl Loss {
     /// How many there are.
-    pub const COUNT: usize = 13;
+    pub const COUNT: usize = 14;
     /// All, in order.
     pub const ALL: [Self; Self::COUNT] = [
         Self::NormalDamping,
@@ -51,6 +53,7 @@ impl Loss {
         Self::BondDamping,
         Self::BondRelease,
         Self::GlobalDamping,
+        Self::Drag,
         Self::Removed,
     ];
 
@@ -69,6 +72,7 @@ impl Loss {
             Self::BondDamping => "bond_damping",
             Self::BondRelease => "bond_release",
             Self::GlobalDamping => "global_damping",
+            Self::Drag => "drag",
             Self::Removed => "removed",
         }
     }

@@ -12,6 +12,7 @@ pub mod clumps;
 pub mod contacts;
 pub mod deepest;
 pub mod exchange;
+pub mod fluid;
 pub mod foresight;
 pub mod heat;
 mod history;
@@ -24,6 +25,7 @@ pub mod pace;
 pub mod particles;
 mod plain;
 pub mod snapshot;
+pub mod traces;
 
 pub use bonds::{BondList, Break};
 pub use boundaries::{BoundaryState, Orientation, Stand};
@@ -35,6 +37,7 @@ pub use clumps::{ClumpRows, Clumps};
 pub use contacts::{Columns, ContactList, NearParts, Neighbours, WallContacts};
 pub use deepest::{Deepest, Named};
 pub use exchange::Exchange;
+pub use fluid::FluidState;
 pub use foresight::Foresight;
 pub use heat::Heat;
 pub use history::History;
@@ -44,6 +47,7 @@ pub use nodes::Nodes;
 pub use number::InsertedParticle;
 pub use pace::Pace;
 pub use particles::{GONE, IMAGE, Particles};
+pub use traces::{FacetTraces, Impact, ImpactBin, ImpactRecord, Traces};
 
 pub use crate::base::number::Row;
 
@@ -101,6 +105,10 @@ pub struct State {
     pub cell: Option<CellState>,
     /// Temperatures, where heat flows.
     pub heat: Option<Heat>,
+    /// The fluid around the particles, where the scene has one.
+    pub fluid: Option<FluidState>,
+    /// What contacts leave behind, where the scene asks for it.
+    pub traces: Option<Traces>,
 }
 
 clone_in_place!(State {
@@ -126,7 +134,9 @@ clone_in_place!(State {
     damping_impulse,
     exchange,
     cell,
-    heat
+    heat,
+    fluid,
+    traces
 });
 
 impl State {
@@ -215,8 +225,10 @@ impl State {
         let bonds = self.bonds.iter().flat_map(|list| [list.relaxed, list.damped, list.released]);
         let net = self.exchange.iter().map(|exchange| &exchange.net);
         let exchanged = net.flat_map(|net| [net.kinetic, net.elastic, net.potential, net.turnover]);
-        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(self.works());
-        all.map(f64::abs).sum::<f64>().is_finite()
+        let traces = self.traces.iter().flat_map(Traces::sums);
+        let all = ledgers.chain(losses).chain(bonds).chain(exchanged).chain(traces).chain(self.works());
+        let fluid = self.fluid.iter().map(|fluid| fluid.work);
+        all.chain(fluid).map(f64::abs).sum::<f64>().is_finite()
     }
 
     /// Sets every count and sum that began at time 0 to zero: bonds made and broken, energy that left them, impulses, work.
@@ -240,6 +252,12 @@ impl State {
         }
         if let Some(heat) = &mut self.heat {
             heat.begin_counting();
+        }
+        if let Some(fluid) = &mut self.fluid {
+            fluid.begin_counting();
+        }
+        if let Some(traces) = &mut self.traces {
+            traces.begin_counting();
         }
         self.particles.bonds.fill([0; 2]);
         for list in &mut self.bonds {

@@ -316,28 +316,28 @@ pub(super) const OF_NODE: Row = Row { each: Each::Node, quantity: Quantity::Forc
 pub(super) static OF_NODES: [Row; 3] = [
     Row {
         name: "displacement",
-        description: "displacement of node {node} of {boundary} along {axis} since the scene's time 0, to be reached at the end of \
+        description: "displacement of node {element} of {boundary} along {axis} since the scene's time 0, to be reached at the end of \
                       the communication step; at initialisation taken without motion",
         quantity: Quantity::Length,
         write: Some(Write {
-            set: |simulation, at, value| simulation.set_node(at.boundary, (at.node(), at.axis()), value),
-            set_rate: |simulation, at, rate| simulation.set_node_rate(at.boundary, (at.node(), at.axis()), rate),
-            held: |state, at| state.nodes_of(at.boundary.index()).map_or(0.0, |it| it.target[at.node()][at.axis()]),
+            set: |simulation, at, value| simulation.set_node(at.boundary, (at.element(), at.axis()), value),
+            set_rate: |simulation, at, rate| simulation.set_node_rate(at.boundary, (at.element(), at.axis()), rate),
+            held: |state, at| state.nodes_of(at.boundary.index()).map_or(0.0, |it| it.target[at.element()][at.axis()]),
             start: |_, _| 0.0,
-            input: |at| Input::Node(at.boundary, at.node(), at.axis()),
+            input: |at| Input::Node(at.boundary, at.element(), at.axis()),
         }),
         read: |now, at| now.node(at, |nodes| &nodes.target),
         ..OF_NODE
     },
     Row {
         name: "force",
-        description: "force of the particles on {boundary} along {axis}, the part of node {node}",
+        description: "force of the particles on {boundary} along {axis}, the part of node {element}",
         read: |now, at| now.node(at, |nodes| &nodes.force),
         ..OF_NODE
     },
     Row {
         name: "mean_force",
-        description: "force of the particles on {boundary} along {axis}, the part of node {node}, mean over the last communication \
+        description: "force of the particles on {boundary} along {axis}, the part of node {element}, mean over the last communication \
                       step",
         read: |now, at| now.node(at, |nodes| &nodes.mean_force),
         ..OF_NODE

@@ -51,7 +51,7 @@ fn has_nodes(scene: &Scene, at: At) -> bool {
 /// Heat of a node.
 fn of_node(state: &State, at: At) -> BoundaryHeat {
     let nodes = state.heat.as_ref().and_then(|heat| heat.nodes_of(at.boundary.index()));
-    nodes.map(|nodes| nodes[at.node()]).unwrap_or_default()
+    nodes.map(|nodes| nodes[at.element()]).unwrap_or_default()
 }
 
 /// The same at the present time.
@@ -148,38 +148,38 @@ pub(super) static OF_HEATED: [Row; 6] = [
 pub(super) static OF_HEATED_NODES: [Row; 4] = [
     Row {
         name: "temperature",
-        description: "temperature of node {node} of {boundary}, to be reached at the end of the communication step; at initialisation \
+        description: "temperature of node {element} of {boundary}, to be reached at the end of the communication step; at initialisation \
                       taken at once",
         quantity: Quantity::Temperature,
         minimum: Some(0.0),
         follows_inputs_at_start: OUTPUT.follows_inputs_at_start,
         write: Some(Write {
-            set: |simulation, at, value| simulation.set_node_temperature(at.boundary, at.node(), value),
-            set_rate: |simulation, at, rate| simulation.set_node_temperature_rate(at.boundary, at.node(), rate),
+            set: |simulation, at, value| simulation.set_node_temperature(at.boundary, at.element(), value),
+            set_rate: |simulation, at, rate| simulation.set_node_temperature_rate(at.boundary, at.element(), rate),
             held: |state, at| of_node(state, at).target,
             start: |scene, at| temperature(scene, at).at_start().unwrap_or(0.0),
-            input: |at| Input::Heat(at.boundary, Some(at.node())),
+            input: |at| Input::Heat(at.boundary, Some(at.element())),
         }),
         read: |now, at| at_node(now, at, |node| node.target),
         ..OF_NODE
     },
     Row {
         name: "heat_flow",
-        description: "heat flow of the particles into {boundary} in the last time step, the part of node {node}; 0 before the first",
+        description: "heat flow of the particles into {boundary} in the last time step, the part of node {element}; 0 before the first",
         quantity: Quantity::HeatFlow,
         read: |now, at| at_node(now, at, |node| node.flow),
         ..OF_NODE
     },
     Row {
         name: "mean_heat_flow",
-        description: "heat flow of the particles into {boundary}, the part of node {node}, mean over the last communication step",
+        description: "heat flow of the particles into {boundary}, the part of node {element}, mean over the last communication step",
         quantity: Quantity::HeatFlow,
         read: |now, at| at_node(now, at, |node| node.mean_flow),
         ..OF_NODE
     },
     Row {
         name: "heat",
-        description: "heat of the particles into {boundary} since the start, the part of node {node}",
+        description: "heat of the particles into {boundary} since the start, the part of node {element}",
         quantity: Quantity::Energy,
         read: |now, at| at_node(now, at, BoundaryHeat::heat),
         ..OF_NODE

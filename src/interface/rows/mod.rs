@@ -6,11 +6,14 @@
 mod boundaries;
 mod cell;
 mod exchange;
+mod fluid;
+mod grids;
 mod heat;
 mod probes;
 mod regions;
 mod row;
 mod scene;
+mod traces;
 
 use crate::base::quantity::BoundaryIndex;
 use crate::interface::{Causality, Variable};
@@ -18,12 +21,16 @@ use crate::scene::Scene;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
+use fluid::OF_FLUID;
+use grids::OF_GRIDS;
+pub use grids::{Field, fields};
 use heat::{OF_HEAT, OF_HEATED, OF_HEATED_NODES};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
 use row::Each;
 pub(super) use row::{At, Present, ReadRate, Row};
 use scene::{OF_LOSSES, OF_SCENE};
+use traces::OF_TRACES;
 
 /// Where a variable's row stands, and which of the row's variables it is.
 #[derive(Clone, Copy)]
@@ -46,7 +53,7 @@ impl PartialEq for Source {
     }
 }
 
-/// The variables of a scene, boundary by boundary, then region by region, of what comes, goes and passes, then of the whole.
+/// The variables of a scene, boundary by boundary, then region by region, grid by grid, of what comes, goes and passes, then of the whole.
 pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let boundaries = (0..scene.boundaries.len()).map(|index| BoundaryIndex(u32::try_from(index).unwrap_or(u32::MAX)));
     let none = At::NOWHERE;
@@ -55,12 +62,21 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         let of_nodes = OF_NODES
             .iter()
             .chain(&OF_HEATED_NODES)
-            .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_node(node))));
-        OF_BOUNDARIES.iter().chain(&OF_HEATED).map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
+            .flat_map(move |row| nodes.clone().map(move |node| (row, none.at_boundary(boundary).at_element(node))));
+        let all = OF_BOUNDARIES.iter().chain(&OF_HEATED).chain(&OF_TRACES);
+        all.map(move |row| (row, none.at_boundary(boundary))).chain(of_nodes)
     });
     let each = |rows: &'static [Row], count: usize| {
         (0..count).flat_map(move |place| rows.iter().map(move |row| (row, none.at_place(place))))
     };
+    // By kind, as those of nodes, so that one call reads a field.
+    let of_cells = scene.grids.iter().enumerate().flat_map(|(place, grid)| {
+        let at = none.at_place(place);
+        OF_GRIDS
+            .iter()
+            .filter(move |row| (row.exists)(scene, at))
+            .flat_map(move |row| (0..grid.shape.cells()).map(move |cell| (row, at.at_element(cell))))
+    });
     let exchange = each(&OF_INSERTIONS, scene.insertions.len())
         .chain(each(&OF_OUTLETS, scene.outlets.len()))
         .chain(each(&OF_METERS, scene.meters.len()))
@@ -68,10 +84,12 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
     let of_scene =
         OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).chain(&OF_HEAT).map(|row| (row, none));
     let places = of_boundaries
+        .chain(each(&OF_FLUID, usize::from(scene.fluid.is_some())))
         .chain(each(&OF_REGIONS, scene.regions.len()))
+        .chain(of_cells)
         .chain(exchange)
         .chain(of_scene)
-        .flat_map(|(row, at)| (0..row.each.names().len()).map(move |axis| Source { row, at: at.along(axis) }));
+        .flat_map(|(row, at)| (0..row.each.names(scene).len()).map(move |axis| Source { row, at: at.along(axis) }));
     places.filter(|source| (source.row.exists)(scene, source.at)).map(|source| source.variable(scene)).collect()
 }
 
@@ -82,17 +100,19 @@ pub(super) fn all() -> impl Iterator<Item = &'static Row> {
     let of_parts = OF_BOUNDARIES
         .iter()
         .chain(&OF_HEATED)
+        .chain(&OF_TRACES)
         .chain(&OF_NODES)
         .chain(&OF_HEATED_NODES)
         .chain(&OF_REGIONS)
+        .chain(&OF_GRIDS)
         .chain(exchange);
-    of_parts.chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
+    of_parts.chain(&OF_FLUID).chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 
 impl Source {
-    /// The node that it is of, from 0.
-    pub(super) fn node(&self) -> Option<usize> {
-        matches!(self.row.each, Each::Node | Each::NodeScalar).then_some(self.at.node())
+    /// The node of a mesh or the cell of a grid that it is of, from 0.
+    pub(super) fn element(&self) -> Option<usize> {
+        self.row.each.element().map(|_| self.at.element())
     }
 
     /// The boundary that it is of, from 0.
@@ -112,17 +132,19 @@ impl Source {
         let owner = match row.each {
             Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
             Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar => &scene.boundaries[at.boundary.index()].name,
+            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
             Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
+            Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[at.place()].name,
             Each::Insertion => &scene.insertions[at.place()].name,
             Each::Outlet => &scene.outlets[at.place()].name,
             Each::Meter => &scene.meters[at.place()].name,
             Each::Probe | Each::ProbeAxis => &scene.probes[at.place()].name,
         };
-        let own = row.each.names()[at.axis()];
-        let number = (at.node() + 1).to_string();
-        let node = self.node().map_or_else(String::new, |_| format!("node[{number}]"));
-        let parts = [owner, &node, row.name, own].into_iter().filter(|part| !part.is_empty());
-        let described = row.description.replace("{axis}", own).replace("{node}", &number);
+        let own = row.each.names(scene)[at.axis()];
+        let number = (at.element() + 1).to_string();
+        let element = row.each.element().map(|kind| format!("{kind}[{number}]")).unwrap_or_default();
+        let parts = [owner, &element, row.name, own].into_iter().filter(|part| !part.is_empty());
+        let described = row.description.replace("{axis}", own).replace("{element}", &number);
         Variable {
             name: parts.collect::<Vec<_>>().join("."),
             description: described.replace("{boundary}", owner).replace("{region}", owner).replace("{owner}", owner),

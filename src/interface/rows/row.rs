@@ -35,6 +35,10 @@ pub(in crate::interface) enum Each {
     Node,
     /// One for each node that moves by itself: `<boundary>.node[<number>].<name>`.
     NodeScalar,
+    /// One for the fluid: `<fluid>.<name>`.
+    Fluid,
+    /// One for the fluid and each axis: `<fluid>.<name>.<axis>`.
+    FluidAxis,
     /// One for each insertion: `<insertion>.<name>`.
     Insertion,
     /// One for each outlet: `<outlet>.<name>`.
@@ -47,6 +51,14 @@ pub(in crate::interface) enum Each {
     RegionAxis,
     /// One for each region and component of a symmetric tensor: `<region>.<name>.<component>`.
     Component,
+    /// One for each cell of a grid: `<grid>.cell[<number>].<name>`.
+    Cell,
+    /// One for each cell of a grid and axis: `<grid>.cell[<number>].<name>.<axis>`.
+    CellAxis,
+    /// One for each cell of a grid and component of a symmetric tensor: `<grid>.cell[<number>].<name>.<component>`.
+    CellComponent,
+    /// One for each cell of a grid and set of particles: `<grid>.cell[<number>].<name>.<set>`.
+    CellSet,
     /// One for each component of the strain of the cell: `<name>.<component>`.
     Strain,
     /// One for each component of its stress and each of its strain: `<name>.<component>.<component>`.
@@ -60,17 +72,37 @@ pub(in crate::interface) enum Each {
 }
 
 impl Each {
-    /// What tells the variables of a boundary or a region apart; one empty name where there is one.
-    pub(super) fn names(self) -> &'static [&'static str] {
+    /// What tells the variables of a boundary, a region or a cell of a grid apart; one empty name where there is one.
+    pub(super) fn names(self, scene: &Scene) -> Vec<&str> {
         match self {
-            Self::Axis | Self::Node | Self::RegionAxis | Self::ProbeAxis => &AXES,
-            Self::Component | Self::Strain => &STRAINS,
+            Self::CellSet => scene.sets.iter().map(String::as_str).collect(),
+            _ => self.fixed_names().to_vec(),
+        }
+    }
+
+    /// What an element of it is called, of which there are many, each with a number.
+    pub(super) fn element(self) -> Option<&'static str> {
+        match self {
+            Self::Node | Self::NodeScalar => Some("node"),
+            Self::Cell | Self::CellAxis | Self::CellComponent | Self::CellSet => Some("cell"),
+            _ => None,
+        }
+    }
+
+    /// The same where it is the same in every scene.
+    fn fixed_names(self) -> &'static [&'static str] {
+        match self {
+            Self::Axis | Self::Node | Self::FluidAxis | Self::RegionAxis | Self::CellAxis | Self::ProbeAxis => &AXES,
+            Self::Component | Self::CellComponent | Self::Strain => &STRAINS,
             Self::Tangent => &TANGENTS,
             Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary
             | Self::NodeScalar
+            | Self::Fluid
             | Self::Region
+            | Self::Cell
+            | Self::CellSet
             | Self::Insertion
             | Self::Outlet
             | Self::Meter
@@ -84,9 +116,9 @@ impl Each {
 pub(in crate::interface) struct At {
     /// The boundary.
     pub(super) boundary: BoundaryIndex,
-    /// The node, from 0.
-    node: u32,
-    /// The region, insertion, outlet, flow meter or probe.
+    /// The node of a mesh or the cell of a grid, from 0.
+    element: u32,
+    /// The region, grid, insertion, outlet, flow meter or probe.
     place: u32,
     /// The axis or component.
     axis: u32,
@@ -94,19 +126,19 @@ pub(in crate::interface) struct At {
 
 impl At {
     /// The place of a variable that is of no row, or of the whole scene.
-    pub(in crate::interface) const NOWHERE: Self = Self { boundary: BoundaryIndex(0), node: 0, place: 0, axis: 0 };
+    pub(in crate::interface) const NOWHERE: Self = Self { boundary: BoundaryIndex(0), element: 0, place: 0, axis: 0 };
 
     /// At this boundary.
     pub(super) fn at_boundary(self, boundary: BoundaryIndex) -> Self {
         Self { boundary, ..self }
     }
 
-    /// At this node.
-    pub(super) fn at_node(self, node: usize) -> Self {
-        Self { node: node as u32, ..self }
+    /// At this node or cell of a grid.
+    pub(super) fn at_element(self, element: usize) -> Self {
+        Self { element: element as u32, ..self }
     }
 
-    /// At this region, insertion, outlet, flow meter or probe.
+    /// At this region, grid, insertion, outlet, flow meter or probe.
     pub(super) fn at_place(self, place: usize) -> Self {
         Self { place: place as u32, ..self }
     }
@@ -116,12 +148,12 @@ impl At {
         Self { axis: axis as u32, ..self }
     }
 
-    /// The node, from 0.
-    pub(in crate::interface) fn node(self) -> usize {
-        self.node as usize
+    /// The node of a mesh or the cell of a grid, from 0.
+    pub(in crate::interface) fn element(self) -> usize {
+        self.element as usize
     }
 
-    /// The region, insertion, outlet, flow meter or probe.
+    /// The region, grid, insertion, outlet, flow meter or probe.
     pub(in crate::interface) fn place(self) -> usize {
         self.place as usize
     }
@@ -150,12 +182,17 @@ impl Present<'_> {
     /// A component of a row of a node.
     pub(super) fn node(&self, at: At, rows: fn(&Nodes) -> &[[f64; 4]]) -> Value {
         let nodes = self.simulation.state().nodes_of(at.boundary.index());
-        Value::Real(nodes.map_or(0.0, |nodes| rows(nodes)[at.node()][at.axis()]))
+        Value::Real(nodes.map_or(0.0, |nodes| rows(nodes)[at.element()][at.axis()]))
     }
 
     /// The particles in a region.
     pub(super) fn content(&self, at: At) -> Content {
         self.findings.content(self.simulation, at.place())
+    }
+
+    /// The particles in a cell of a grid.
+    pub(super) fn cell_content(&self, at: At) -> Content {
+        self.findings.of_cells(self.simulation, at.place()).contents(self.simulation)[at.element()]
     }
 
     /// What a probe sees.
@@ -203,7 +240,8 @@ pub(in crate::interface) struct Row {
     pub(in crate::interface) name: &'static str,
     /// What it belongs to.
     pub(in crate::interface) each: Each,
-    /// What it is, with its sign. `{boundary}`, `{region}`, `{owner}` and `{axis}` stand for the names.
+    /// What it is, with its sign. `{boundary}`, `{region}`, `{owner}` and `{axis}` stand for the names,
+    /// `{element}` for the number of a node or a cell.
     pub(super) description: &'static str,
     /// What is measured, and with it the unit and the type.
     pub(in crate::interface) quantity: Quantity,

@@ -34,6 +34,7 @@ pub(super) static OF_LOSSES: [Row; Loss::COUNT + 1] = [
     lost::<10>(),
     lost::<11>(),
     lost::<12>(),
+    lost::<13>(),
     Row {
         name: "energy.physical_residual",
         description: "kinetic, elastic and potential energy and all losses since the start, less what boundaries and forces \

@@ -124,11 +124,17 @@ impl LawChoice {
             });
         }
         if !friction.does.has_spring && !self.switches.damps_slip() {
+            let is_by_itself = friction.is_active() && !friction.does.has_dashpot;
             return Some(Objection {
                 table: "",
                 key: "tangential_damping",
-                reason: "expected true, or tangential model none without this key, found false, which leaves \
-                         nothing tangential without a tangential spring",
+                reason: if is_by_itself {
+                    "expected no such key, found false, which changes nothing: the tangential model takes no damping \
+                     of the normal model"
+                } else {
+                    "expected true, or tangential model none without this key, found false, which leaves \
+                     nothing tangential without a tangential spring"
+                },
             });
         }
         if self.is_damped_at_touch() && self.stretches_backwards() {

@@ -6,12 +6,13 @@ use super::rolling::rocking;
 use super::tangential::turned_history;
 use super::{
     Cohesion, CohesionForm, CohesionModel, Contact, FrictionNeeds, HistoryRow, LawChoice, Material, MaterialPair,
-    Missing, Needs, NoKeys, NormalForce, NormalModel, PairProperties, Response, RollingModel, Scheme, Switches,
+    Missing, Needs, NoKeys, NormalForce, NormalModel, Properties, Response, RollingModel, Scheme, Switches,
     TangentialModel, coefficients, normal, rolling, tangential,
 };
 use crate::base::number::{Number, Vector};
-use crate::base::quantity::{AtLeastOne, NonNegative, Positive, Restitution};
+use crate::base::quantity::Positive;
 use crate::laws::contact::Thermal;
+use crate::laws::contact::property;
 
 /// Friction that takes all there is.
 pub(super) const ALL: FrictionNeeds = FrictionNeeds { stiffness: true, damping: true };
@@ -185,45 +186,50 @@ pub(crate) fn corners() -> Vec<Contact> {
 /// A material with E = 2 Pa and ν = 0: two of them have E* = 1 Pa and G* = ¼ Pa.
 pub(super) fn material() -> Material {
     let thermal = Thermal::default();
-    Material { name: "soft".into(), density: 1.0, youngs_modulus: Some(2.0), poissons_ratio: Some(0.0), thermal }
-}
-
-/// All properties of two materials, each another number.
-pub(crate) fn properties() -> PairProperties {
-    PairProperties {
-        restitution: Restitution::new(0.5),
-        friction: NonNegative::new(0.25),
-        rolling_friction: NonNegative::new(0.125),
-        cohesion_energy_density: NonNegative::new(7.0),
-        normal_stiffness: NonNegative::new(100.0),
-        tangential_stiffness: NonNegative::new(50.0),
-        normal_damping: NonNegative::new(6.0),
-        tangential_damping: NonNegative::new(3.0),
-        absolute_normal_damping: NonNegative::new(11.0),
-        absolute_tangential_damping: NonNegative::new(9.0),
-        fluid_viscosity: Positive::new(0.5),
-        critical_stokes_number: Positive::new(30.0),
-        maximum_restitution: Restitution::new(0.875),
-        rolling_viscous_damping: NonNegative::new(0.5),
-        surface_energy: NonNegative::new(1e-6),
-        damping_coefficient: NonNegative::new(2.0),
-        tangential_damping_ratio: NonNegative::new(0.5),
-        unloading_stiffness_ratio: AtLeastOne::new(4.0),
-        pull_off_force: NonNegative::new(0.0),
-        adhesion_stiffness_ratio: NonNegative::new(0.5),
-        conductivity: None,
-        heat_transfer_coefficient: NonNegative::new(2000.0),
+    Material {
+        name: "soft".into(),
+        density: 1.0,
+        youngs_modulus: Some(2.0),
+        poissons_ratio: Some(0.0),
+        thermal,
+        properties: Properties::default(),
     }
 }
 
+/// All properties of two materials, each another number.
+pub(crate) fn properties() -> Properties {
+    Properties::default()
+        .with(&property::RESTITUTION, 0.5)
+        .with(&property::FRICTION, 0.25)
+        .with(&property::ROLLING_FRICTION, 0.125)
+        .with(&property::COHESION_ENERGY_DENSITY, 7.0)
+        .with(&property::NORMAL_STIFFNESS, 100.0)
+        .with(&property::TANGENTIAL_STIFFNESS, 50.0)
+        .with(&property::NORMAL_DAMPING, 6.0)
+        .with(&property::TANGENTIAL_DAMPING, 3.0)
+        .with(&property::ABSOLUTE_NORMAL_DAMPING, 11.0)
+        .with(&property::ABSOLUTE_TANGENTIAL_DAMPING, 9.0)
+        .with(&property::FLUID_VISCOSITY, 0.5)
+        .with(&property::CRITICAL_STOKES_NUMBER, 30.0)
+        .with(&property::MAXIMUM_RESTITUTION, 0.875)
+        .with(&property::ROLLING_VISCOUS_DAMPING, 0.5)
+        .with(&property::SURFACE_ENERGY, 1e-6)
+        .with(&property::DAMPING_COEFFICIENT, 2.0)
+        .with(&property::TANGENTIAL_DAMPING_RATIO, 0.5)
+        .with(&property::UNLOADING_STIFFNESS_RATIO, 4.0)
+        .with(&property::PULL_OFF_FORCE, 0.0)
+        .with(&property::ADHESION_STIFFNESS_RATIO, 0.5)
+        .with(&property::HEAT_TRANSFER_COEFFICIENT, 2000.0)
+}
+
 /// Calls `with` for two pieces of one material that have these properties in common.
-pub(crate) fn with_pair<T>(properties: &PairProperties, with: impl FnOnce(&MaterialPair) -> T) -> T {
+pub(crate) fn with_pair<T>(properties: &Properties, with: impl FnOnce(&MaterialPair) -> T) -> T {
     let material = material();
     with(&MaterialPair { a: &material, b: &material, properties })
 }
 
 /// Fails, with both values, unless they agree to `tolerance` of the expected one.
 #[track_caller]
-pub(super) fn assert_close(found: f64, expected: f64, tolerance: f64) {
+pub(in crate::laws) fn assert_close(found: f64, expected: f64, tolerance: f64) {
     assert!((found - expected).abs() <= tolerance * expected.abs(), "{found:e} found, {expected:e} expected");
 }

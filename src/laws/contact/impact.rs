@@ -228,20 +228,21 @@ fn contact([radius, mass]: [f64; 2], overlap: f64, velocity: f64, pair_constant:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::quantity::{NonNegative, Positive, Restitution};
+    use crate::base::quantity::Positive;
     use crate::laws::contact::fixtures::*;
+    use crate::laws::contact::property;
     use crate::laws::contact::{
-        CohesionModel, LawChoice, NoKeys, NormalModel, PairProperties, RollingModel, Scheme, Switches, TangentialModel,
+        CohesionModel, LawChoice, NoKeys, NormalModel, Properties, RollingModel, Scheme, Switches, TangentialModel,
         cohesion, normal, rolling, tangential,
     };
 
     /// A law without friction, and its coefficients.
     fn case(name: &str, restitution: f64, scheme: Scheme) -> (Law, Vec<f64>) {
-        case_with(name, PairProperties { restitution: Restitution::new(restitution), ..properties() }, scheme)
+        case_with(name, properties().with(&property::RESTITUTION, restitution), scheme)
     }
 
     /// The same of any properties.
-    fn case_with(name: &str, properties: PairProperties, scheme: Scheme) -> (Law, Vec<f64>) {
+    fn case_with(name: &str, properties: Properties, scheme: Scheme) -> (Law, Vec<f64>) {
         let speed = normal::hooke::Keys { characteristic_velocity: Positive::new(2.0).unwrap() };
         let choice = LawChoice {
             normal: match name {
@@ -315,11 +316,8 @@ mod tests {
     #[test]
     fn bodies_that_attract_each_other_are_tried_where_they_do_not_stick() {
         for surface_energy in [1e-12, 1e-9, 1e-6, 1e-5] {
-            let properties = PairProperties {
-                surface_energy: NonNegative::new(surface_energy),
-                damping_coefficient: NonNegative::new(0.0),
-                ..properties()
-            };
+            let properties =
+                properties().with(&property::SURFACE_ENERGY, surface_energy).with(&property::DAMPING_COEFFICIENT, 0.0);
             let (law, row) = case_with("jkr", properties, Scheme::PredictedNormal);
             let impact = Impact::of(&law, &row, [1e-3, 1e-5]).unwrap();
             assert!(impact.restitution() > 0.4, "{surface_energy}: {}", impact.restitution());

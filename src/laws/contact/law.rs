@@ -40,6 +40,12 @@ const LOADS: HistoryRow = HistoryRow { name: "dashpots before", odd: [false, tru
 const OTHER_LOADS: HistoryRow =
     HistoryRow { name: "other loads before", odd: [false, true, true, true], fourth_is_free: false };
 
+/// What is remembered of an impact: loss along the normal and across it \[J\], largest normal force \[N\], duration so far \[s\].
+const IMPACT: HistoryRow = HistoryRow { name: "impact", odd: [false; 4], fourth_is_free: false };
+
+/// How it began: speeds along the normal and across it \[m/s\], and whether it has begun.
+const TOUCH: HistoryRow = HistoryRow { name: "touch", ..IMPACT };
+
 /// A contact law: what the four sub-models that the scene named do to one contact.
 #[derive(Clone)]
 pub struct Law {
@@ -81,6 +87,13 @@ impl Law {
             self.history_places.seen = Some(self.history.len());
             self.history.push(if carries { SEEN_CARRIED } else { SEEN });
         }
+        self
+    }
+
+    /// The same law, whose contacts are followed one by one from touch to parting.
+    pub fn followed(mut self) -> Self {
+        self.history_places.impact = Some(self.history.len());
+        self.history.extend([IMPACT, TOUCH]);
         self
     }
 
@@ -145,6 +158,7 @@ impl Law {
             predicts_normal_alone: self.history_places.normal_velocity.is_some(),
             least_force: self.choice.normal.row().count,
             warming: self.warming,
+            follows: self.history_places.impact.is_some(),
         }
     }
 
@@ -510,6 +524,8 @@ impl Law {
         if !self.tangential().has_dashpot || !self.switches(row).damps_slip() {
             response.tangential_damping = 0.0;
         }
+        let own = &row[self.places.tangential..];
+        response.tangential_damping = (self.tangential().damping)(own, response.tangential_damping);
         let [normal, tangential] = self.scheme().damping_factors();
         response.normal_damping *= normal;
         response.tangential_damping *= tangential;

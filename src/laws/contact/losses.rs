@@ -64,6 +64,8 @@ pub struct Booked {
     pub least_force: usize,
     /// Which losses warm the bodies.
     pub warming: Warming,
+    /// Whether contacts are followed one by one.
+    pub follows: bool,
 }
 
 impl Booked {
@@ -95,6 +97,21 @@ impl Booked {
             }
         }
         heat
+    }
+
+    /// What of these losses is along the normal and what across it \[J\]; rolling is across it.
+    #[inline(always)]
+    pub fn by_direction<N: Number>(&self, lost: &[N; LossKind::COUNT]) -> [N; 2] {
+        let (mut along, mut across, mut kind) = (N::zero(), N::zero(), 0);
+        while kind < LossKind::COUNT {
+            if self.takes(kind) && (kind == LossKind::Normal as usize || kind == LossKind::Other as usize) {
+                along = along + lost[kind];
+            } else if self.takes(kind) {
+                across = across + lost[kind];
+            }
+            kind += 1;
+        }
+        [along, across]
     }
 
     /// Whether bodies move otherwise than dashpots see.

@@ -23,6 +23,7 @@ mod material;
 mod model;
 pub mod normal;
 mod places;
+pub mod property;
 pub mod rolling;
 mod scheme;
 mod sub_model;
@@ -37,13 +38,14 @@ pub use law::Offset;
 pub use law::{Law, OFFSET};
 pub(crate) use losses::parting;
 pub use losses::{Booked, LossKind, Seen, Warming};
-pub use material::{Material, MaterialPair, Missing, PairProperties, Thermal};
+pub use material::{Material, MaterialPair, Missing, Thermal};
 pub use model::{
     CohesionFunctions, CohesionModel, CohesionRow, HeatFunctions, HeatModel, HeatRow, Model, ModelRow, NormalFunctions,
     NormalModel, NormalRow, RollingFunctions, RollingModel, RollingRow, TangentialFunctions, TangentialModel,
     TangentialRow,
 };
 pub use places::{CoefficientPlaces, HistoryPlaces};
+pub use property::{Properties, Property, PropertyUnit};
 pub use scheme::{Carry, Foreseen, Scheme, SchemeMemory, foresee_normal};
 pub(crate) use sub_model::pressing_force;
 pub use sub_model::{
@@ -256,9 +258,9 @@ pub struct Friction<N: Number = f64> {
     pub sliding: N::Mask,
 }
 
-/// Rows that a law remembers of a contact at most: one each of its four sub-models and of the scheme, one of records, and two of a
-/// book of losses.
-pub const MOST_HISTORY: usize = 8;
+/// Rows that a law remembers of a contact at most: one each of its four sub-models and of the scheme, one of records, two of a
+/// book of losses, and two of single impacts.
+pub const MOST_HISTORY: usize = 10;
 
 /// The history that a sub-model stores of a contact from one evaluation to the next: a row of four numbers, zero at first
 /// touch and removed with the contact.

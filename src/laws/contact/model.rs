@@ -6,7 +6,7 @@ use super::functions::{self, CohesionFunction, NormalFunction, RollingFunction, 
 use super::heat::Spot;
 use super::{
     Adhesion, Coefficients, Cohesion, CohesionForm, Contact, FrictionNeeds, Heat, HistoryRow, MaterialPair, Missing,
-    Needs, Normal, NormalForm, Objection, Onset, Response, Rolling, RollingResponse, Tangential,
+    Needs, Normal, NormalForm, Objection, Onset, Property, Response, Rolling, RollingResponse, Tangential,
 };
 use crate::base::document::{Document, Faults};
 use crate::base::number::Row;
@@ -30,6 +30,8 @@ pub struct ModelRow<F> {
     form: fn() -> TypeId,
     /// The type of its keys.
     keys: fn() -> TypeId,
+    /// Properties of two materials and of one that it declares.
+    pub(crate) properties: [&'static [&'static Property]; 2],
     /// Reads its keys below a table.
     read: fn(&Document, &str, &str, &mut Faults) -> Option<Kept>,
     /// What its kind does.
@@ -211,6 +213,7 @@ impl NormalRow {
                 needs: M::Form::NEEDS,
                 form: TypeId::of::<M::Form>,
                 keys: TypeId::of::<M::Keys>,
+                properties: [M::PAIR_PROPERTIES, M::MATERIAL_PROPERTIES],
                 read: read::<M::Keys>,
                 does: NormalFunctions {
                     adhesion: M::Form::ADHESION,
@@ -292,6 +295,8 @@ pub struct TangentialFunctions {
     between: fn(Kept, &MaterialPair, bool) -> Result<Vec<f64>, Missing>,
     /// [`Tangential::stiffness`].
     pub(super) stiffness: fn(&[f64], f64) -> f64,
+    /// [`Tangential::damping`].
+    pub(super) damping: fn(&[f64], f64) -> f64,
     /// [`Tangential::force`] of one contact.
     pub(super) force: TangentialFunction,
     /// What it does to a batch of contacts.
@@ -312,6 +317,7 @@ impl TangentialRow {
                 needs: Needs { torque: M::ACTIVE, ..Needs::NONE },
                 form: TypeId::of::<M>,
                 keys: TypeId::of::<M::Keys>,
+                properties: [M::PAIR_PROPERTIES, M::MATERIAL_PROPERTIES],
                 read: read::<M::Keys>,
                 does: TangentialFunctions {
                     has_spring: M::HAS_SPRING,
@@ -322,6 +328,7 @@ impl TangentialRow {
                     stretches_backwards: |keys, damped_at_touch| M::stretches_backwards(own(keys), damped_at_touch),
                     between: |keys, pair, damped_at_touch| Ok(numbers(&M::between(pair, own(keys), damped_at_touch)?)),
                     stiffness: |row, from_normal_model| M::read(row).stiffness(from_normal_model),
+                    damping: |row, from_normal_model| M::read(row).damping(from_normal_model),
                     force: functions::tangential::<M>,
                     run: batch::tangential::<M, false>,
                     run_carried: if M::HAS_SPRING {
@@ -391,6 +398,7 @@ impl RollingRow {
                 needs: M::NEEDS,
                 form: TypeId::of::<M>,
                 keys: TypeId::of::<M::Keys>,
+                properties: [M::PAIR_PROPERTIES, M::MATERIAL_PROPERTIES],
                 read: read::<M::Keys>,
                 does: RollingFunctions {
                     takes_overlap: M::TAKES_OVERLAP,
@@ -472,6 +480,7 @@ impl CohesionRow {
                 needs: M::Form::NEEDS,
                 form: TypeId::of::<M::Form>,
                 keys: TypeId::of::<M::Keys>,
+                properties: [M::PAIR_PROPERTIES, M::MATERIAL_PROPERTIES],
                 read: read::<M::Keys>,
                 does: CohesionFunctions {
                     beyond_touch: M::Form::BEYOND_TOUCH,
@@ -535,6 +544,7 @@ impl HeatRow {
                 needs: M::NEEDS,
                 form: TypeId::of::<M>,
                 keys: TypeId::of::<M::Keys>,
+                properties: [M::PAIR_PROPERTIES, M::MATERIAL_PROPERTIES],
                 read: read::<M::Keys>,
                 does: HeatFunctions {
                     between: |keys, pair| Ok(numbers(&M::between(pair, own(keys))?)),

@@ -3,7 +3,7 @@
 use super::heat::Spot;
 use super::{
     Adhesion, Coefficients, Contact, Friction, HistoryRow, MaterialPair, Missing, ModelKeys, Needs, NormalForce,
-    Objection, Onset, Response, Roots, Switches,
+    Objection, Onset, Property, Response, Roots, Switches,
 };
 use crate::base::number::{Number, Row, Vector};
 
@@ -22,6 +22,10 @@ pub trait Normal: Copy + Send + Sync + 'static {
     const NAME: &'static str;
     /// What the scene writes under the model's name.
     type Keys: ModelKeys;
+    /// Properties of two materials that the model declares of its own.
+    const PAIR_PROPERTIES: &'static [&'static Property] = &[];
+    /// Properties of one material that the model declares of its own.
+    const MATERIAL_PROPERTIES: &'static [&'static Property] = &[];
     /// What the loop computes. Models that differ in their coefficients alone share it.
     type Form: NormalForm;
     /// The coefficients for two materials; what friction has no use for is not asked of the scene.
@@ -130,13 +134,17 @@ pub trait Tangential: Coefficients {
     const NAME: &'static str;
     /// What the scene writes under the model's name.
     type Keys: ModelKeys;
+    /// Properties of two materials that the model declares of its own.
+    const PAIR_PROPERTIES: &'static [&'static Property] = &[];
+    /// Properties of one material that the model declares of its own.
+    const MATERIAL_PROPERTIES: &'static [&'static Property] = &[];
     /// Whether there is a force at all; without one nothing tangential is evaluated.
     const ACTIVE: bool;
     /// What it remembers, if anything.
     const HISTORY: Option<HistoryRow> = None;
     /// Whether a spring of stiffness k_t is stretched by slip; its first three remembered numbers are its vector.
     const HAS_SPRING: bool;
-    /// Whether slip is damped by γ_t.
+    /// Whether slip is damped by γ_t of the normal model. A dashpot of its own is told by [`Tangential::damping`] alone.
     const HAS_DASHPOT: bool;
     /// Whether the fourth remembered number is the stiffness of the spring \[N/m\]; otherwise it is k_t.
     const KEEPS_STIFFNESS: bool = false;
@@ -150,6 +158,11 @@ pub trait Tangential: Coefficients {
     const PROJECTS: bool = false;
     /// Stiffness of the spring where that of the normal model is k_t \[N/m\].
     fn stiffness(&self, from_normal_model: f64) -> f64 {
+        from_normal_model
+    }
+    /// The largest coefficient of its dashpot, where that of the normal model is γ_t (0 where slip is not damped by it): for the stable
+    /// time step \[kg/s\].
+    fn damping(&self, from_normal_model: f64) -> f64 {
         from_normal_model
     }
     /// The coefficients for two materials, beside a normal model that says [`Normal::DAMPED_AT_TOUCH`] or does not.
@@ -184,6 +197,10 @@ pub trait Rolling: Coefficients {
     const NAME: &'static str;
     /// What the scene writes under the model's name.
     type Keys: ModelKeys;
+    /// Properties of two materials that the model declares of its own.
+    const PAIR_PROPERTIES: &'static [&'static Property] = &[];
+    /// Properties of one material that the model declares of its own.
+    const MATERIAL_PROPERTIES: &'static [&'static Property] = &[];
     /// Whether there is a torque at all.
     const ACTIVE: bool;
     /// The coefficients for two materials.
@@ -224,6 +241,10 @@ pub trait Cohesion: Copy + Send + Sync + 'static {
     const NAME: &'static str;
     /// What the scene writes under the model's name.
     type Keys: ModelKeys;
+    /// Properties of two materials that the model declares of its own.
+    const PAIR_PROPERTIES: &'static [&'static Property] = &[];
+    /// Properties of one material that the model declares of its own.
+    const MATERIAL_PROPERTIES: &'static [&'static Property] = &[];
     /// What the loop computes. Models that differ in their coefficients alone share it.
     type Form: CohesionForm;
     /// The coefficients for two materials.
@@ -279,6 +300,10 @@ pub trait Heat: Coefficients {
     type Keys: ModelKeys;
     /// What of a contact it looks at: `section` where it wants the radii of both bodies.
     const NEEDS: Needs = Needs::NONE;
+    /// Properties of two materials that the model declares of its own.
+    const PAIR_PROPERTIES: &'static [&'static Property] = &[];
+    /// Properties of one material that the model declares of its own.
+    const MATERIAL_PROPERTIES: &'static [&'static Property] = &[];
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
     /// Heat flow from the warmer body to the colder over the difference of their temperatures \[W/K\].

@@ -36,11 +36,23 @@ pub(crate) struct Keys(Names);
 
 /// A constant velocity \[m/s\] or angular velocity \[rad/s\], a schedule, or a table of a file.
 #[derive(Clone, Debug)]
-enum Prescribed {
+pub(crate) enum PrescribedMotion {
     /// It stands in the scene.
     Here(AxisMotion),
     /// It stands in a file.
     Table(TableKeys),
+}
+
+impl PrescribedMotion {
+    /// The motion; `read` finds its table.
+    pub(crate) fn of_axis(&self, read: impl FnOnce(&TableKeys) -> Option<Table>) -> AxisMotion {
+        match self {
+            Self::Here(motion) => motion.clone(),
+            Self::Table(keys) => {
+                read(keys).map_or(AxisMotion::Prescribed(0.0), |table| AxisMotion::Tabulated(Arc::new(table)))
+            }
+        }
+    }
 }
 
 /// What may stand in the braces of a prescribed motion.
@@ -55,34 +67,34 @@ enum Law {
     Table,
 }
 
-impl<'de> Deserialize<'de> for Prescribed {
+impl<'de> Deserialize<'de> for PrescribedMotion {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// Takes a number or a table.
         struct NumberOrTable;
         /// What is expected.
         const EXPECTED: &str = "a velocity, { sine = { amplitude, frequency } }, { trapezoid = { distance, speed, acceleration } } or { table = \"motion.csv\" }";
         impl<'de> Visitor<'de> for NumberOrTable {
-            type Value = Prescribed;
+            type Value = PrescribedMotion;
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
                 f.write_str(EXPECTED)
             }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Prescribed, E> {
+            fn visit_f64<E: Error>(self, value: f64) -> Result<PrescribedMotion, E> {
                 let velocity =
-                    Finite::new(value).map(|velocity| Prescribed::Here(AxisMotion::Prescribed(velocity.get())));
+                    Finite::new(value).map(|velocity| PrescribedMotion::Here(AxisMotion::Prescribed(velocity.get())));
                 velocity.ok_or_else(|| E::custom(format!("expected a finite number, found {value:?}")))
             }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Prescribed, E> {
+            fn visit_i64<E: Error>(self, value: i64) -> Result<PrescribedMotion, E> {
                 self.visit_f64(value as f64)
             }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Prescribed, A::Error> {
-                let scheduled = |schedule| Prescribed::Here(AxisMotion::Scheduled(schedule));
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<PrescribedMotion, A::Error> {
+                let scheduled = |schedule| PrescribedMotion::Here(AxisMotion::Scheduled(schedule));
                 let Some(law) = map.next_key()? else {
                     return Err(A::Error::custom(format!("expected {EXPECTED}, found an empty table")));
                 };
                 let motion = match law {
                     Law::Sine => scheduled(Schedule::Sine(map.next_value()?)),
                     Law::Trapezoid => scheduled(Schedule::Trapezoid(map.next_value()?)),
-                    Law::Table => Prescribed::Table(map.next_value()?),
+                    Law::Table => PrescribedMotion::Table(map.next_value()?),
                 };
                 match map.next_key::<String>()? {
                     None => Ok(motion),
@@ -112,7 +124,7 @@ struct Names {
     by: By,
     /// Those that move as the scene says.
     #[serde(default)]
-    prescribed: BTreeMap<Axis, Prescribed>,
+    prescribed: BTreeMap<Axis, PrescribedMotion>,
     /// Those that move by the forces on the boundary.
     #[serde(default)]
     free: Vec<Axis>,
@@ -181,14 +193,7 @@ impl Keys {
         let named = (fixed.iter().map(|axis| (*axis, AxisMotion::Fixed)))
             .chain(conveying.iter().map(|(axis, velocity)| (*axis, AxisMotion::Conveying(velocity.get()))))
             .chain(driven.iter().map(|axis| (*axis, leads.clone())))
-            .chain(prescribed.iter().map(|(axis, motion)| {
-                let motion = match motion {
-                    Prescribed::Here(motion) => motion.clone(),
-                    Prescribed::Table(keys) => read(*axis as usize, keys)
-                        .map_or(AxisMotion::Prescribed(0.0), |table| AxisMotion::Tabulated(Arc::new(table))),
-                };
-                (*axis, motion)
-            }))
+            .chain(prescribed.iter().map(|(axis, motion)| (*axis, motion.of_axis(|keys| read(*axis as usize, keys)))))
             .chain(free.iter().map(|axis| (*axis, AxisMotion::Free)))
             .chain(loaded.0.iter().map(|(axis, start)| (*axis, AxisMotion::Loaded(start.get()))))
             .chain(servo.iter().map(|(axis, servo)| (*axis, AxisMotion::Servo(*servo))));

@@ -18,7 +18,7 @@ mod table;
 
 pub use course::InputCourse;
 pub(crate) use course::Progress;
-pub(crate) use keys::{Axis, Keys};
+pub(crate) use keys::{Axis, Keys, PrescribedMotion};
 pub use nodes::NodeMotion;
 pub use schedule::{Schedule, Sine, Trapezoid};
 pub(crate) use servo::Felt;

@@ -1,7 +1,7 @@
 //! A box along the axes of the scene.
 
-use super::sphere::{UNIT, beyond};
-use super::{EVERYWHERE, between_planes, in_both};
+use super::sphere::{beyond, in_box};
+use super::{EVERYWHERE, between_planes, in_both, length_inside};
 use crate::base::number::Vector;
 
 /// A box along the axes of the scene.
@@ -33,34 +33,22 @@ impl Cuboid {
         fits.then(|| Vector::new(along(0), along(1), along(2)))
     }
 
-    /// Volume of the part of a sphere that is inside \[m³\]: the sum over the corners of the box of the part of the sphere
-    /// beyond each, with alternating signs.
+    /// Volume of the part of a sphere that is inside \[m³\].
     pub(super) fn volume_of_sphere(&self, centre: Vector, radius: f64) -> f64 {
         let centre = centre.to_array();
-        let [lower, upper] = self.corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - centre[axis]) / radius));
-        let axes = 0..3;
-        if axes.clone().any(|axis| lower[axis] >= 1.0 || upper[axis] <= -1.0) {
-            return 0.0;
-        }
-        let cube = radius * radius * radius;
-        if axes.clone().all(|axis| lower[axis] <= -1.0 && upper[axis] >= 1.0) {
-            return UNIT * cube;
-        }
-        let farthest = axes.map(|axis| lower[axis].abs().max(upper[axis].abs()));
-        if farthest.map(|distance| distance * distance).sum::<f64>() <= 1.0 {
-            return self.volume();
-        }
-        let mut sum = 0.0;
-        for corner in 0..8_usize {
-            let planes = [0, 1, 2].map(|axis| if corner >> axis & 1 == 0 { lower[axis] } else { upper[axis] });
-            let part = beyond(planes);
-            sum += if corner.count_ones() % 2 == 0 { part } else { -part };
-        }
-        (sum * cube).clamp(0.0, self.volume())
+        let corners = self.corners.map(|corner| [0, 1, 2].map(|axis| (corner[axis] - centre[axis]) / radius));
+        in_box(corners, (radius, self.volume()), |corner| {
+            beyond([0, 1, 2].map(|axis| corners[corner >> axis & 1][axis]))
+        })
+    }
+
+    /// The part of the line between two points \[m\] that is inside, over its length.
+    pub(super) fn share_of_line(&self, from: Vector, to: Vector) -> f64 {
+        length_inside(self.passage(from, to - from))
     }
 
     /// Where a line is inside, over its way.
-    pub(super) fn passage(&self, from: Vector, way: Vector) -> [f64; 2] {
+    fn passage(&self, from: Vector, way: Vector) -> [f64; 2] {
         let [lower, upper] = self.corners;
         let (from, way) = (from.to_array(), way.to_array());
         (0..3).fold(EVERYWHERE, |passage, axis| {

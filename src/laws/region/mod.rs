@@ -7,6 +7,7 @@ mod crossing;
 mod cuboid;
 mod cut;
 mod cylinder;
+mod grid;
 mod keys;
 mod quadrature;
 mod solid;
@@ -15,6 +16,7 @@ mod sphere;
 use crate::base::number::Vector;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
+pub use grid::{Grid, Weights};
 pub(crate) use keys::Keys;
 pub use solid::Solid;
 
@@ -79,12 +81,11 @@ impl Region {
 
     /// The part of the line between two points \[m\] that is inside, over its length.
     pub fn share_of_line(&self, from: Vector, to: Vector) -> f64 {
-        let [enters, leaves] = match self {
-            Self::Box(cuboid) => cuboid.passage(from, to - from),
-            Self::Cylinder(cylinder) => cylinder.passage(from, to - from),
-            Self::Solid(solid) => return solid.share_of_line(from, to),
-        };
-        (leaves.min(1.0) - enters.max(0.0)).max(0.0)
+        match self {
+            Self::Box(cuboid) => cuboid.share_of_line(from, to),
+            Self::Cylinder(cylinder) => length_inside(cylinder.passage(from, to - from)),
+            Self::Solid(solid) => solid.share_of_line(from, to),
+        }
     }
 }
 
@@ -97,6 +98,11 @@ fn between_planes(height: f64, rise: f64, between: f64) -> [f64; 2] {
     }
     let (low, high) = (-height / rise, (between - height) / rise);
     [low.min(high), low.max(high)]
+}
+
+/// How much of a line is inside that is so from this multiple of its way to that one.
+fn length_inside([enters, leaves]: [f64; 2]) -> f64 {
+    (leaves.min(1.0) - enters.max(0.0)).max(0.0)
 }
 
 /// A line that is inside all along.
@@ -112,6 +118,9 @@ fn in_both(one: [f64; 2], other: [f64; 2]) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests;
+
+#[cfg(test)]
+mod grid_tests;
 
 #[cfg(test)]
 mod solid_tests;

@@ -7,22 +7,51 @@ pub(super) const UNIT: f64 = 4.0 / 3.0 * PI;
 
 /// Volume of the part of the unit sphere where x > a, y > b and z > c. A plane of −1 or below cuts nothing off.
 ///
-/// A sphere that is cut at a < 0 is one that is not cut, which is twice the one that is cut at 0, less the one that is cut at −a.
+/// What is beyond a plane behind the centre, a < 0, is what no such plane cuts, less what is beyond its reflection, −a.
 pub(super) fn beyond(planes: [f64; 3]) -> f64 {
     if planes.iter().any(|plane| *plane >= 1.0) {
         return 0.0;
     }
-    match planes.iter().position(|plane| *plane < 0.0) {
-        Some(axis) => {
-            let with = |plane: f64| {
-                let mut planes = planes;
-                planes[axis] = plane;
-                beyond(planes)
-            };
-            2.0 * with(0.0) - with(-planes[axis])
-        }
-        None => corner(planes),
+    let with = |axis: usize, plane: f64| {
+        let mut planes = planes;
+        planes[axis] = plane;
+        planes
+    };
+    if let Some(axis) = planes.iter().position(|plane| -1.0 < *plane && *plane < 0.0) {
+        return (beyond(with(axis, -1.0)) - beyond(with(axis, -planes[axis]))).max(0.0);
     }
+    let cuts = |axis: &usize| planes[*axis] > -1.0;
+    let (first, last) = ((0..3).find(cuts), (0..3).rfind(cuts));
+    match (first, last, (0..3).find(|axis| !cuts(axis))) {
+        (Some(first), Some(last), _) if first == last => between(planes[first], 1.0),
+        (Some(_), Some(_), Some(whole)) => 2.0 * corner(with(whole, 0.0)),
+        (Some(_), Some(_), None) => corner(planes),
+        _ => UNIT,
+    }
+}
+
+/// Volume of the part of a sphere of this radius in a box of this volume. The box is told by its lower and upper corner, seen from the
+/// centre and over the radius. `beyond` gives what is [`beyond`] each corner, whose number has a bit for each upper face: with
+/// alternating signs their sum is the part inside.
+pub(super) fn in_box(
+    [lower, upper]: [[f64; 3]; 2],
+    (radius, volume): (f64, f64),
+    beyond: impl Fn(usize) -> f64,
+) -> f64 {
+    let axes = 0..3;
+    if axes.clone().any(|axis| lower[axis] >= 1.0 || upper[axis] <= -1.0) {
+        return 0.0;
+    }
+    let cube = radius * radius * radius;
+    if axes.clone().all(|axis| lower[axis] <= -1.0 && upper[axis] >= 1.0) {
+        return UNIT * cube;
+    }
+    let farthest = axes.map(|axis| lower[axis].abs().max(upper[axis].abs()));
+    if farthest.map(|distance| distance * distance).sum::<f64>() <= 1.0 {
+        return volume;
+    }
+    let signed = |corner: usize| if corner.count_ones() % 2 == 0 { beyond(corner) } else { -beyond(corner) };
+    ((0..8).map(signed).sum::<f64>() * cube).clamp(0.0, volume)
 }
 
 /// The same for planes that do not cut the centre off: a, b, c of 0 or above.

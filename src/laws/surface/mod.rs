@@ -143,6 +143,12 @@ pub trait Surface: Debug + Send + Sync {
         0
     }
 
+    /// Gives the shares of what happens at a foot on a feature to the facets there: they add up to 1. A feature that lies on several facets
+    /// has a share of each.
+    fn share_out(&self, _feature: u32, foot: Vector, give: &mut dyn FnMut(usize, f64)) {
+        give(self.facet_at(foot), 1.0);
+    }
+
     /// What it and its copies in a periodic cell are, none of which is wider than the cell; otherwise what is wrong with them, found
     /// and expected.
     fn repeated(&self, _copies: &Copies) -> Result<Repeated, [String; 2]> {

@@ -272,10 +272,11 @@ fn structure(xml: &mut Xml, model: &Model) -> io::Result<()> {
     // Texts say what the unit does beside the simulation.
     let deciding = || interface.of_causality(Causality::Parameter).filter(|(_, it)| it.start_text().is_none());
     let parameters = places(deciding());
-    // Without a list an unknown depends on all: the nodes of a mesh would make it as long as the square of their number.
-    let has_nodes = interface.inputs().any(|(_, variable)| variable.node().is_some());
+    // Without a list an unknown depends on all: nodes of a mesh and cells of a grid would make the lists as long as the square of their
+    // number.
+    let has_elements = interface.variables().iter().any(|variable| variable.element().is_some());
     let (inputs, given) = (places(interface.inputs()), places(interface.inputs().chain(deciding())));
-    let [inputs, given] = [&inputs, &given].map(|list| (!has_nodes).then_some(list.as_str()));
+    let [inputs, given] = [&inputs, &given].map(|list| (!has_elements).then_some(list.as_str()));
     let dependencies = |index: usize| if interface.is_continuous_output(index) { inputs } else { Some("") };
     let outputs: Vec<Unknown> =
         interface.outputs().map(|(index, _)| ((index + 1).to_string(), dependencies(index))).collect();

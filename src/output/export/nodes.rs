@@ -1,19 +1,20 @@
-//! The meshes whose nodes the outside moves, as tables: which node has which number, and which triangles join them.
+//! What has elements with numbers, as tables: meshes whose nodes the outside moves, and grids.
 
 use super::names::{LONGEST, is_reserved};
 use super::{PackageError, Resource};
-use crate::scene::{Boundary, Scene};
+use crate::scene::{Boundary, Grid, Scene};
 use std::fmt::Write;
 
-/// The tables of a scene: two for each mesh.
+/// The tables of a scene: two for each mesh, one for each grid.
 pub(super) fn tables(scene: &Scene) -> Vec<Resource> {
     let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0);
-    meshes.flat_map(|mesh| [nodes(mesh), triangles(mesh)]).collect()
+    meshes.flat_map(|mesh| [nodes(mesh), triangles(mesh)]).chain(scene.grids.iter().map(cells)).collect()
 }
 
-/// Refuses names of meshes that cannot be those of files on every system.
+/// Refuses names of meshes and grids that cannot be those of files on every system.
 pub(super) fn check_names(scene: &Scene) -> Result<(), PackageError> {
-    let names = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0).map(|mesh| &mesh.name);
+    let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0).map(|mesh| &mesh.name);
+    let names = meshes.chain(scene.grids.iter().map(|grid| &grid.name));
     let mut known: Vec<&String> = Vec::new();
     for name in names {
         let twin = known.iter().find(|other| other.eq_ignore_ascii_case(name));
@@ -49,4 +50,14 @@ fn triangles(mesh: &Boundary) -> Resource {
         let _ = writeln!(table, "{},{},{}", a + 1, b + 1, c + 1);
     }
     Resource::new(format!("{}.triangles.csv", mesh.name), table)
+}
+
+/// `<grid>.cells.csv`: number, centre and volume of each cell.
+fn cells(grid: &Grid) -> Resource {
+    let (mut table, volume) = ("cell,x,y,z,volume\n".to_owned(), grid.shape.cell_volume());
+    for cell in 0..grid.shape.cells() {
+        let [x, y, z] = grid.shape.centre(cell);
+        let _ = writeln!(table, "{},{x:?},{y:?},{z:?},{volume:?}", cell + 1);
+    }
+    Resource::new(format!("{}.cells.csv", grid.name), table)
 }

@@ -3,7 +3,7 @@
 use super::description::{Model, about, communication_step};
 use crate::engine::simulation::Simulation;
 use crate::interface::{Causality, Variability, Variable};
-use crate::scene::{Boundary, Scene, Source, Step};
+use crate::scene::{Boundary, Grid, Scene, Source, Step};
 use quick_xml::escape::escape;
 use std::fmt::Write;
 
@@ -55,7 +55,7 @@ impl Page<'_> {
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n\
              <body>\n<h1>{name}</h1>\n<p>{about}.</p>\n{picture}{facts}{USE}{steps}\
-             <h2>What to set</h2>\n{inputs}<h2>What to read</h2>\n{outputs}{nodes}\
+             <h2>What to set</h2>\n{inputs}<h2>What to read</h2>\n{outputs}{elements}\
              <h2>Parameters</h2>\n<p>Fixed ones before the end of the initialisation mode, tunable ones also between steps.</p>\n{parameters}\
              {origin}</body>\n</html>\n",
             name = escape(model.identifier),
@@ -65,7 +65,7 @@ impl Page<'_> {
             inputs = self.table(Causality::Input),
             outputs = self.table(Causality::Output),
             parameters = self.table(Causality::Parameter),
-            nodes = nodes(model.scene),
+            elements = elements(model.scene),
             origin = self.origin(),
         )
     }
@@ -94,9 +94,9 @@ impl Page<'_> {
         format!("<table>\n{rows}</table>\n")
     }
 
-    /// The variables of one causality, those of nodes once, and components of one quantity in one row.
+    /// The variables of one causality, those of nodes and cells of grids once, and components of one quantity in one row.
     fn table(&self, causality: Causality) -> String {
-        let shown = |variable: &&Variable| variable.node().is_none_or(|node| node == 0);
+        let shown = |variable: &&Variable| variable.element().is_none_or(|element| element == 0);
         let variables: Vec<&Variable> =
             self.model.interface.of_causality(causality).map(|(_, variable)| variable).filter(shown).collect();
         if variables.is_empty() {
@@ -236,8 +236,8 @@ fn range(variable: &Variable) -> String {
     }
 }
 
-/// What is said of meshes whose nodes the outside moves.
-fn nodes(scene: &Scene) -> String {
+/// What is said of meshes whose nodes the outside moves and of grids.
+fn elements(scene: &Scene) -> String {
     let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0);
     let line = |mesh: &Boundary| {
         format!(
@@ -247,5 +247,12 @@ fn nodes(scene: &Scene) -> String {
             count = mesh.driven_nodes()
         )
     };
-    meshes.map(line).collect()
+    let grid = |grid: &Grid| {
+        let ([nx, ny, nz], name) = (grid.shape.counts, &grid.name);
+        format!(
+            "<p><code>{name}</code> has {nx} × {ny} × {nz} cells, of which the tables show the first; <code>resources/{name}.cells.csv</code> has \
+             their numbers, centres and volumes.</p>\n"
+        )
+    };
+    meshes.map(line).chain(scene.grids.iter().map(grid)).collect()
 }

@@ -52,7 +52,7 @@ pub(super) fn png(scene: &Scene, state: &State) -> Option<Vec<u8>> {
             Sphere { centre: seen([x, y, z]), radius, colour: COLOURS[set % COLOURS.len()] }
         })
         .collect();
-    let shown = boundaries(scene, &state.particles, (&state.boundaries, &state.nodes), (&[], &[]));
+    let shown = boundaries(scene, &state.particles, (&state.boundaries, &state.nodes), (&[], &[]), None);
     let points: Vec<[f64; 3]> =
         shown.points.chunks_exact(3).map(|point| seen([point[0], point[1], point[2]])).collect();
 

@@ -112,6 +112,7 @@ fn as_a_group(scene: &Arc<Scene>, present: &Simulation, bond: &Bond) -> Option<S
         body: Body::default(),
         outside: Outside::default(),
         temperature: BoundaryTemperature::default(),
+        wear: Vec::new(),
     });
     let without = Arc::new(without.build().ok()?);
     let cost = |scene: &Arc<Scene>| {

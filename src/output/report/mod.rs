@@ -21,7 +21,7 @@ use crate::output::results::files::Checkpoint;
 use crate::output::results::schedule::Schedule;
 use crate::output::run::remarks::remarks;
 use crate::scene::exchange::{Amount, Outside};
-use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Insertion, Kind, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Grid, Insertion, Kind, Scene, Step};
 use rules::rules;
 use serde::Serialize;
 use std::fmt;
@@ -217,12 +217,18 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .map(|force| format!("force {} on {}", force.name, counted(force.members.len(), "particle"))),
     );
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
+    uses.extend(scene.grids.iter().map(grid));
     uses.extend(exchange(scene));
     if scene.output.energy {
         uses.push("the algorithmic energy book".to_owned());
     }
     if scene.output.losses {
         uses.push("the physical energy book".to_owned());
+    }
+    if let Some(impacts) = scene.output.impacts {
+        let each = if impacts.events { ", and each by itself" } else { "" };
+        let bins = impacts.histogram.bins_per_decade;
+        uses.push(format!("impacts from touch to parting, counted by energy, {bins} bins a decade{each}"));
     }
     uses
 }
@@ -294,6 +300,15 @@ fn insertion(insertion: &Insertion) -> String {
     format!("insertion {}: {amount}, {}", insertion.name, kinds.join(", "))
 }
 
+/// A grid in one line.
+fn grid(grid: &Grid) -> String {
+    let [nx, ny, nz] = grid.shape.counts;
+    let told: Vec<_> = grid.outputs.iter().map(|output| output.name()).collect();
+    let told =
+        if told.is_empty() { "without outputs".to_owned() } else { format!("{}: computed when read", told.join(", ")) };
+    format!("grid {}: {nx} × {ny} × {nz} cells, {told}", grid.name)
+}
+
 /// A boundary in one line.
 fn boundary(boundary: &Boundary) -> String {
     let axes: Vec<_> = (AxisMotion::WORDS.iter().zip(&boundary.axes).zip(0..))
@@ -306,7 +321,8 @@ fn boundary(boundary: &Boundary) -> String {
         0 => axes.join(", "),
         nodes => format!("its {nodes} nodes driven"),
     };
-    format!("boundary {}: {}, {motion}", boundary.name, boundary.shape.words())
+    let worn: String = boundary.wear.iter().map(|model| format!(", worn by {}", model.name())).collect();
+    format!("boundary {}: {}, {motion}{worn}", boundary.name, boundary.shape.words())
 }
 
 /// The time step, the stable one and what limits it.

@@ -1,10 +1,9 @@
 //! What a scene pays for and could drop, with the saving measured: the scene is run for a moment with and without it.
 
 use super::{economy, trial};
-use crate::base::quantity::NonNegative;
 use crate::engine::simulation::Simulation;
 use crate::interface::Interface;
-use crate::laws::contact::PairProperties;
+use crate::laws::contact::{Property, property};
 use crate::scene::{ContactLaw, DRY, ROLLING_FREELY, SMOOTH, Scene, SceneDraft, Step};
 use std::sync::Arc;
 use std::time::Duration;
@@ -109,20 +108,20 @@ fn costs(with: &Arc<Scene>, without: &Arc<Scene>) -> Option<[f64; 2]> {
 fn unused(scene: &Scene) -> Vec<Unused> {
     let mut unused = Vec::new();
     for (index, law) in scene.contacts.iter().enumerate() {
-        let zero = |of: fn(&PairProperties) -> Option<NonNegative>| is_zero(scene, law, of);
+        let zero = |of: &Property| is_zero(scene, law, of);
         let mut add = |part: &str, model: &str, property: &str, drop: fn(&mut ContactLaw)| {
             let mut without = SceneDraft::clone(scene);
             drop(&mut without.contacts[index]);
             let what = format!("[contact.{}.{part}.{model}]: {property} is 0 in all its pairs", law.name);
             unused.push(Unused { what, without });
         };
-        if law.choice.tangential.row().is_active() && zero(|pair| pair.friction) {
+        if law.choice.tangential.row().is_active() && zero(&property::FRICTION) {
             add("tangential", law.choice.tangential.name(), "friction", |law| law.choice.tangential = SMOOTH);
         }
-        if law.choice.rolling.row().is_active() && zero(|pair| pair.rolling_friction) {
+        if law.choice.rolling.row().is_active() && zero(&property::ROLLING_FRICTION) {
             add("rolling", law.choice.rolling.name(), "rolling_friction", |law| law.choice.rolling = ROLLING_FREELY);
         }
-        if law.choice.cohesion.row().is_active() && zero(|pair| pair.cohesion_energy_density) {
+        if law.choice.cohesion.row().is_active() && zero(&property::COHESION_ENERGY_DENSITY) {
             add("cohesion", law.choice.cohesion.name(), "cohesion_energy_density", |law| law.choice.cohesion = DRY);
         }
     }
@@ -136,7 +135,10 @@ fn unused(scene: &Scene) -> Vec<Unused> {
     for bond in 0..scene.bonds.len() {
         unused.extend(without_breakage(scene, bond));
     }
-    for (key, is_kept) in [("energy", scene.output.energy), ("losses", scene.output.losses && !scene.heat.warms())] {
+    for (key, is_kept) in [
+        ("energy", scene.output.energy),
+        ("losses", scene.output.losses && !scene.heat.warms() && scene.output.impacts.is_none()),
+    ] {
         if !is_kept || is_read(scene) {
             continue;
         }
@@ -168,7 +170,8 @@ fn without_breakage(scene: &Scene, bond: usize) -> Option<Unused> {
 }
 
 /// Whether a property is given as 0 for all pairs of a law that say it.
-fn is_zero(scene: &Scene, law: &ContactLaw, of: fn(&PairProperties) -> Option<NonNegative>) -> bool {
-    let own = || scene.pairs.iter().zip(&law.between).filter(|(_, between)| **between).filter_map(|(pair, _)| of(pair));
-    own().next().is_some() && own().all(|value| value.get() == 0.0)
+fn is_zero(scene: &Scene, law: &ContactLaw, of: &Property) -> bool {
+    let own =
+        || scene.pairs.iter().zip(&law.between).filter(|(_, between)| **between).filter_map(|(pair, _)| pair.get(of));
+    own().next().is_some() && own().all(|value| value == 0.0)
 }

@@ -148,8 +148,8 @@ fn price(mut make: impl FnMut() -> Result<f64, EncodeError>) -> Result<OutputCos
 
 /// Bytes of all files of a frame.
 fn bytes_of_frame(simulation: &Simulation) -> Result<f64, EncodeError> {
-    let clouds = frames::clouds(simulation.scene(), frame(simulation, 0.0));
-    clouds.into_iter().flatten().try_fold(0.0, |sum, cloud| Ok(sum + cloud.encode()?.len() as f64))
+    let mut files = frames::files(simulation.scene(), frame(simulation, 0.0));
+    files.try_fold(0.0, |sum, file| Ok(sum + file?.len() as f64))
 }
 
 #[cfg(test)]

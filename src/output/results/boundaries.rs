@@ -4,7 +4,7 @@ use super::vtk::{Kind, PointCloud, Values};
 use crate::base::geometry::Frame;
 use crate::base::number::Vector;
 use crate::engine::simulation::{BondRecord, ContactRecord};
-use crate::engine::state::{BoundaryState, Nodes, Particles};
+use crate::engine::state::{BoundaryState, FacetTraces, Nodes, Particles};
 use crate::laws::surface::{Deforming, Facets, Surface};
 use crate::scene::{Boundary, Scene};
 
@@ -15,6 +15,7 @@ pub(crate) fn boundaries(
     bodies: &Particles,
     (moved, nodes): (&[BoundaryState], &[Nodes]),
     (contacts, bonds): (&[ContactRecord], &[BondRecord]),
+    traces: Option<&[FacetTraces]>,
 ) -> PointCloud {
     let mut shown = FacetRows::default();
     for (index, (boundary, moved)) in (0..).zip(scene.boundaries.iter().zip(moved)) {
@@ -37,8 +38,11 @@ pub(crate) fn boundaries(
             bear.add(at(bond.other), bond.force.into(), bond.carried.normal);
         }
         shown.add(index, (&facets, &first), &frame, &bear);
+        if let Some(left) = traces.and_then(|traces| traces.get(index as usize)) {
+            shown.left.add(&first, left);
+        }
     }
-    shown.cloud()
+    shown.cloud(scene)
 }
 
 /// A mesh as its nodes stand.
@@ -94,6 +98,42 @@ struct FacetRows {
     loads: [Vec<f64>; 2],
     /// Normal pressure on each \[Pa\].
     pressure: Vec<f64>,
+    /// What contacts left on each, where the scene asks for it.
+    left: LeftRows,
+}
+
+/// What contacts left on the facets of all boundaries so far.
+#[derive(Default)]
+struct LeftRows {
+    /// Volume worn off each \[m³\].
+    wear: Vec<f64>,
+    /// How deep that is, over its area at time 0 \[m\].
+    depth: Vec<f64>,
+    /// Energy lost at each, along the normal and across it \[J\].
+    lost: [Vec<f64>; 2],
+}
+
+impl LeftRows {
+    /// Adds those of a boundary with these facets at time 0.
+    fn add(&mut self, first: &Facets, left: &FacetTraces) {
+        for facet in 0..first.len() {
+            let of = |numbers: &[f64]| numbers.get(facet).copied().unwrap_or(0.0);
+            self.wear.push(of(&left.wear));
+            self.depth.push(of(&left.wear) / first.area(facet));
+            self.lost[0].push(of(&left.normal));
+            self.lost[1].push(of(&left.tangential));
+        }
+    }
+
+    /// Fields of the facets: those that the scene asks for.
+    fn fields(self, scene: &Scene) -> Vec<(&'static str, Values)> {
+        let wears = scene.boundaries.iter().any(|boundary| !boundary.wear.is_empty());
+        let [normal, tangential] = self.lost.map(Values::Scalars);
+        let wear = [("wear", Values::Scalars(self.wear)), ("wear_depth", Values::Scalars(self.depth))];
+        let lost = [("impact_energy_normal", normal), ("impact_energy_tangential", tangential)];
+        let wear = wear.into_iter().filter(|_| wears);
+        wear.chain(lost.into_iter().filter(|_| scene.output.impacts.is_some())).collect()
+    }
 }
 
 impl FacetRows {
@@ -117,19 +157,23 @@ impl FacetRows {
     }
 
     /// All of them.
-    fn cloud(self) -> PointCloud {
+    fn cloud(self, scene: &Scene) -> PointCloud {
+        let left = self.left.fields(scene);
         let ([points, gone], [force, traction]) = (self.points, self.loads);
         PointCloud {
             points,
             cell: Vec::new(),
             kind: Kind::Facets { corners: self.corners, ends: self.ends },
             fields: vec![("displacement", Values::Vectors(gone))],
-            cell_fields: vec![
+            cell_fields: [
                 ("boundary", Values::Integers(self.boundary)),
                 ("force", Values::Vectors(force)),
                 ("traction", Values::Vectors(traction)),
                 ("normal_pressure", Values::Scalars(self.pressure)),
-            ],
+            ]
+            .into_iter()
+            .chain(left)
+            .collect(),
         }
     }
 }
@@ -226,7 +270,8 @@ tangential_stiffness = 4e8
     /// The cloud of a simulation.
     fn cloud(simulation: &Simulation) -> PointCloud {
         let (state, contacts, bonds) = (simulation.state(), simulation.contacts(), simulation.bonds());
-        boundaries(simulation.scene(), &state.particles, (&state.boundaries, &state.nodes), (&contacts, &bonds))
+        let moved = (&state.boundaries[..], &state.nodes[..]);
+        boundaries(simulation.scene(), &state.particles, moved, (&contacts, &bonds), None)
     }
 
     /// The numbers of a field of the facets.

@@ -7,7 +7,9 @@ use super::job::{Job, cells};
 use super::replacement::own_results;
 use super::schedule::Schedule;
 use super::table::{Found, Table};
-use super::{BREAKAGE, CHECKPOINT, FRAMES, HISTORY, SUMMARY, UNFINISHED, frame_name, frame_number};
+use super::{
+    BREAKAGE, CHECKPOINT, FRAMES, HISTOGRAMS, HISTORY, IMPACTS, SUMMARY, UNFINISHED, frame_name, frame_number, impacts,
+};
 use crate::engine::state::{Break, State};
 use crate::scene::Scene;
 use std::fs;
@@ -44,6 +46,8 @@ pub(crate) struct Folder {
     history: Table,
     /// `breakage.csv`, if the scene has bonds.
     breakage: Option<Table>,
+    /// `impacts.csv`, if the scene asks for each impact.
+    impacts: Option<Table>,
     /// The frames, if the scene asks for them.
     frames: Option<FrameFiles>,
     /// Number of the next frame.
@@ -59,6 +63,8 @@ pub(crate) struct KeptFiles {
     history: Option<Found>,
     /// The rows of the breakage, or none where a new file is begun or there are no bonds.
     breakage: Option<Found>,
+    /// The rows of the impacts, or none where a new file is begun or nobody asks for them.
+    impacts: Option<Found>,
     /// The frames that are there.
     frames: Vec<Frame>,
     /// Number of the next frame.
@@ -76,6 +82,8 @@ pub(crate) struct Place<'a> {
     pub time: f64,
     /// The state there.
     pub state: &'a State,
+    /// Whether the scene asks for each impact.
+    pub asks_for_impacts: bool,
 }
 
 impl KeptFiles {
@@ -86,7 +94,7 @@ impl KeptFiles {
 
     /// Looks at the files of a run. A run that began at time 0 has all rows; one that began later has those from there on.
     pub(crate) fn look(path: &Path, place: &Place<'_>) -> Result<Self, ResumeError> {
-        let Place { names, schedule, time, state } = *place;
+        let Place { names, schedule, time, state, asks_for_impacts } = *place;
         let file = path.join(HISTORY);
         let history = Found::until(&file, names, time)?;
         let expected = history.first.map_or(0, |first| 1 + schedule.rows_until(time) - schedule.rows_until(first));
@@ -105,11 +113,22 @@ impl KeptFiles {
             }
             Some(found)
         };
+        let impacts = match state.traces.as_ref().filter(|_| asks_for_impacts) {
+            None => None,
+            Some(traces) => {
+                let (file, columns) = (path.join(IMPACTS), impacts::COLUMNS.map(String::from));
+                let (found, expected) = (Found::until(&file, &columns, state.clock.time)?, traces.ended());
+                if found.rows > expected || (history.first == Some(0.0) && found.rows < expected) {
+                    return Err(ResumeError::Rows { path: file, found: found.rows, expected, time });
+                }
+                Some(found)
+            }
+        };
         let times = schedule.frames_until(time);
         let next_frame = times.len();
         let there = |frame: &Frame| path.join(frame_name(FRAMES[0], frame.number)).exists();
         let frames = (0..).zip(times).map(|(number, time)| Frame { number, time }).filter(there).collect();
-        Ok(Self { history: Some(history), breakage, frames, next_frame })
+        Ok(Self { history: Some(history), breakage, impacts, frames, next_frame })
     }
 }
 
@@ -132,6 +151,8 @@ impl Folder {
         let bonded = !scene.bonds.is_empty();
         let breakage =
             bonded.then(|| table(BREAKAGE, &BREAKAGE_COLUMNS.map(String::from), &kept.breakage)).transpose()?;
+        let tells = scene.output.impacts.is_some_and(|impacts| impacts.events);
+        let impacts = tells.then(|| table(IMPACTS, &impacts::COLUMNS.map(String::from), &kept.impacts)).transpose()?;
         let asked = scene.output.frame_interval.is_some();
         let frames = asked.then(|| FrameFiles::open(path, &scene, &kept.frames)).transpose()?;
         Ok(Self {
@@ -141,6 +162,7 @@ impl Folder {
             path: path.to_owned(),
             history,
             breakage,
+            impacts,
             frames,
             next_frame: kept.next_frame,
             unsynced: Vec::new(),
@@ -157,6 +179,10 @@ impl Folder {
         match job {
             Job::Row { time, values } => self.history.add(&cells(time, &values)),
             Job::Breaks(breaks) => self.breaks(&breaks),
+            Job::Impacts(found) => {
+                let Self { impacts: table, scene, .. } = self;
+                table.as_mut().map_or(Ok(()), |table| impacts::add(table, scene, &found))
+            }
             Job::Frame { time, .. } => self.frame(time, job),
             Job::Checkpoint(state) => self.checkpoint(&state),
             Job::Tell(done) => {
@@ -171,6 +197,7 @@ impl Folder {
     pub(crate) fn checkpoint(&mut self, state: &State) -> Result<(), OutputError> {
         self.history.sync()?;
         self.breakage.as_ref().map_or(Ok(()), Table::sync)?;
+        self.impacts.as_ref().map_or(Ok(()), Table::sync)?;
         for path in self.unsynced.drain(..) {
             sync(&path)?;
         }
@@ -219,7 +246,8 @@ fn is_stale(file: &Path, kept: &KeptFiles) -> bool {
     match name {
         HISTORY => kept.history.is_none(),
         BREAKAGE => kept.breakage.is_none(),
-        SUMMARY => true,
+        IMPACTS => kept.impacts.is_none(),
+        SUMMARY | HISTOGRAMS => true,
         _ => frame_number(name).is_some_and(|number| number >= kept.next_frame),
     }
 }

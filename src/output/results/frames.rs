@@ -1,21 +1,36 @@
-//! The clouds of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries, the cell, the clumps.
+//! The files of a frame: particles by ascending id, the contacts between them, their bonds, the boundaries, the cell, the clumps, then
+//! the grids.
 
 use super::boundaries::boundaries;
+use super::image;
 use super::job::Job;
-use super::vtk::{Kind, PointCloud, Values};
+use super::vtk::{EncodeError, Kind, PointCloud, Values};
 use crate::base::geometry::{Lattice, Quaternion};
 use crate::engine::bodies::loads::{force_on, mass_of};
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
 use crate::engine::state::{CellState, Clumps, Particles};
-use crate::scene::{ParticleShape, Scene};
+use crate::scene::{Grid, ParticleShape, Scene};
+
+/// The files of a frame as bytes, in the order of their kinds; none for other jobs.
+pub(crate) fn files(scene: &Scene, mut job: Job) -> impl Iterator<Item = Result<Vec<u8>, EncodeError>> {
+    let fields = if let Job::Frame { grids, .. } = &mut job { std::mem::take(grids) } else { Vec::new() };
+    let images = grids(scene).zip(fields).map(|(grid, fields)| image::encode(&grid.shape, fields));
+    clouds(scene, job).into_iter().flatten().map(PointCloud::encode).chain(images)
+}
+
+/// The grids that frames show.
+pub(crate) fn grids(scene: &Scene) -> impl Iterator<Item = &Grid> {
+    scene.grids.iter().filter(|grid| !grid.outputs.is_empty())
+}
 
 /// The clouds of a frame, in the order of their kinds; none for other jobs.
-pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
+fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
     let Job::Frame {
         particles: bodies,
         contacts: touching,
         bonds: living,
         boundaries: moved,
+        traces: left,
         cell: lies,
         clumps: rigid,
         ..
@@ -28,7 +43,7 @@ pub(crate) fn clouds(scene: &Scene, job: Job) -> [Option<PointCloud>; 6] {
         Some(particles(scene, (&bodies, rigid.as_deref()), lies.as_deref())),
         touching.as_ref().filter(|_| scene.output.contacts).map(|touching| contacts(scene, &bodies, touching)),
         living.as_ref().map(|living| bonds(scene, &bodies, living)),
-        moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads())),
+        moved.map(|(moved, nodes)| boundaries(scene, &bodies, (&moved, &nodes), loads(), left.as_deref())),
         lies.as_deref().map(cell),
         rigid.as_deref().map(|rigid| clumps(scene, (&bodies, rigid), lies.as_deref())),
     ]

@@ -1,8 +1,8 @@
 //! What is handed to the thread that writes.
 
 use crate::engine::simulation::{BondRecord, ContactRecord};
-use crate::engine::state::{BoundaryState, Break, CellState, Clumps, Nodes, Particles, State};
-use crate::interface::Value;
+use crate::engine::state::{BoundaryState, Break, CellState, Clumps, FacetTraces, Impact, Nodes, Particles, State};
+use crate::interface::{Field, Value};
 use std::sync::mpsc::SyncSender;
 
 /// One thing to write.
@@ -16,6 +16,8 @@ pub(crate) enum Job {
     },
     /// Bonds that broke.
     Breaks(Vec<Break>),
+    /// Impacts that ended.
+    Impacts(Vec<Impact>),
     /// A frame.
     Frame {
         /// Time \[s\].
@@ -28,10 +30,14 @@ pub(crate) enum Job {
         bonds: Option<Vec<BondRecord>>,
         /// Where the boundaries and their nodes stand, if the scene asks for them.
         boundaries: Option<(Vec<BoundaryState>, Vec<Nodes>)>,
+        /// What contacts left on the boundaries, if the scene asks for it and for the boundaries.
+        traces: Option<Vec<FacetTraces>>,
         /// The periodic cell, if the scene has one.
         cell: Option<Box<CellState>>,
         /// The clumps, if the scene has any.
         clumps: Option<Box<Clumps>>,
+        /// Fields on each grid that has any.
+        grids: Vec<Vec<Field>>,
     },
     /// A checkpoint.
     Checkpoint(Box<State>),

@@ -12,7 +12,10 @@
 
 use super::error::OutputError;
 use super::files::{is_checkpoint, sync_folder};
-use super::{BREAKAGE, CHECKPOINT, HISTORY, SUMMARY, UNFINISHED, collection, frame_number, is_collection};
+use super::{
+    BREAKAGE, CHECKPOINT, HISTOGRAMS, HISTORY, IMPACTS, SUMMARY, UNFINISHED, collection, frame_number, impacts,
+    is_collection,
+};
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -143,7 +146,10 @@ fn kind_of(path: &Path) -> Result<Kind, OutputError> {
     let own = about.is_file()
         && match name {
             _ if name.ends_with(&format!(".{UNFINISHED}")) => true,
-            HISTORY | BREAKAGE => begins(&|bytes| bytes.starts_with(b"time,") || bytes.starts_with(b"time\n"))?,
+            HISTORY | BREAKAGE | IMPACTS => {
+                begins(&|bytes| bytes.starts_with(b"time,") || bytes.starts_with(b"time\n"))?
+            }
+            HISTOGRAMS => begins(&|bytes| bytes.starts_with(impacts::HISTOGRAM_HEAD.as_bytes()))?,
             SUMMARY => begins(&|bytes| bytes.starts_with(SUMMARY_MARK))?,
             CHECKPOINT => begins(&is_checkpoint)?,
             _ if is_collection(name) => begins(&|bytes| bytes.starts_with(collection::HEAD.as_bytes()))?,
@@ -166,7 +172,9 @@ fn is_listed(path: &Path, name: &str) -> bool {
 /// Whether a file has a name that runs give.
 fn is_result(name: &str) -> bool {
     let name = name.strip_suffix(&format!(".{UNFINISHED}")).unwrap_or(name);
-    [HISTORY, BREAKAGE, SUMMARY, CHECKPOINT].contains(&name) || frame_number(name).is_some() || is_collection(name)
+    [HISTORY, BREAKAGE, IMPACTS, HISTOGRAMS, SUMMARY, CHECKPOINT].contains(&name)
+        || frame_number(name).is_some()
+        || is_collection(name)
 }
 
 /// Gives a hidden folder another name, for good.

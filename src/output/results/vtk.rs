@@ -12,7 +12,7 @@ use cograin_vtk::model::{
 /// Why bytes could not be made.
 #[derive(Debug, thiserror::Error)]
 #[error("the frame cannot be encoded: {0}")]
-pub struct EncodeError(String);
+pub struct EncodeError(pub(super) String);
 
 /// Values of one field, point after point or line after line.
 #[derive(Clone, Debug, PartialEq)]

@@ -18,15 +18,17 @@ pub use settle::{SettleOrder, SettleProgress, SettleStart, Settled, settle};
 pub use summary::Summary;
 
 use crate::engine::simulation::{RunError, Simulation};
+use crate::engine::state::{Impact, State};
 use crate::interface::{Interface, Variable};
-use crate::output::results::SUMMARY;
 use crate::output::results::files::{Checkpoint, Durability, write_whole};
 use crate::output::results::folder::{Folder, KeptFiles, Place};
+use crate::output::results::impacts::write_histograms;
 use crate::output::results::job::Job;
 use crate::output::results::lock::FolderLock;
 use crate::output::results::schedule::{Due, Schedule};
 use crate::output::results::writer::{Writer, opened};
 use crate::output::results::{Failure, OutputError, Refusal, ResumeError};
+use crate::output::results::{HISTOGRAMS, SUMMARY};
 use beginning::{First, Origin, checkpoint, claim};
 use inputs::Inputs;
 use jobs::{frame, row};
@@ -55,6 +57,16 @@ pub fn run(order: RunOrder<'_>, watch: &mut dyn FnMut(Progress)) -> Result<Summa
     session.end(result)
 }
 
+/// How many bonds broke, and how many impacts ended, since the present communication step began.
+fn happened(state: &State) -> [usize; 2] {
+    [state.breaks.len(), impacts(state).len()]
+}
+
+/// Impacts that ended since the present communication step began, where each is told.
+fn impacts(state: &State) -> &[Impact] {
+    state.traces.as_ref().map_or(&[], |traces| &traces.impacts)
+}
+
 /// A run under way.
 struct Session<'a> {
     /// The order.
@@ -75,8 +87,8 @@ struct Session<'a> {
     writer: Writer,
     /// Communication point that was reached last \[s\].
     time: f64,
-    /// Bonds that broke since then and are told.
-    told_breaks: usize,
+    /// Bonds that broke, and impacts that ended, since then and are told.
+    told: [usize; 2],
     /// Communication point where this session began \[s\].
     start: f64,
     /// Momentum and impulses at the start of this session.
@@ -143,14 +155,15 @@ impl<'a> Session<'a> {
                 First { order: &order, interface: &interface, schedule: &schedule, names: &names, inputs: digest };
             first.write(&simulation, time, origin)?;
         }
-        let place = Place { names: &names, schedule: &schedule, time, state: simulation.state() };
+        let asks_for_impacts = order.scene.output.impacts.is_some_and(|impacts| impacts.events);
+        let place = Place { names: &names, schedule: &schedule, time, state: simulation.state(), asks_for_impacts };
         let kept = KeptFiles::look(order.folder, &place)?;
         let named = (Arc::clone(order.scene), order.scene_name, digest);
         let folder = Folder::open(order.folder, named, &names, &kept)?;
         let folder = Arc::new(Mutex::new(folder));
         let writer = Writer::start(Arc::clone(&folder))?;
         let momentum = momentum::Start::of(&simulation);
-        let told_breaks = simulation.state().underway.map_or(0, |_| simulation.state().breaks.len());
+        let told = simulation.state().underway.map_or([0; 2], |_| happened(simulation.state()));
         let meter = Meter::start(&simulation);
         Ok(Self {
             order,
@@ -162,7 +175,7 @@ impl<'a> Session<'a> {
             folder,
             writer,
             time,
-            told_breaks,
+            told,
             start: time,
             momentum,
             meter,
@@ -179,7 +192,7 @@ impl<'a> Session<'a> {
         watch(tell(self.time));
         while let Some(point) = self.schedule.after(self.time) {
             if self.simulation.state().underway.is_none() {
-                self.told_breaks = 0;
+                self.told = [0; 2];
                 if let Some(inputs) = &self.inputs {
                     inputs.set(&self.interface, &mut self.simulation, point.time);
                 }
@@ -210,7 +223,7 @@ impl<'a> Session<'a> {
     /// Makes a part of a communication step of this length \[s\]. Returns whether its end is reached.
     fn advance_part(&mut self, interval: f64) -> Result<bool, Failure> {
         let reached = self.meter.part(&mut self.simulation, interval);
-        self.write_breaks()?;
+        self.write_events()?;
         Ok(reached?)
     }
 
@@ -220,11 +233,16 @@ impl<'a> Session<'a> {
         unnamed && self.last_checkpoint.elapsed() >= CHECKPOINT_PAUSE
     }
 
-    /// Hands the bonds that broke in this communication step, and are not told yet, to the writer.
-    fn write_breaks(&mut self) -> Result<(), OutputError> {
-        let breaks = self.simulation.state().breaks.get(self.told_breaks..).unwrap_or_default();
-        self.told_breaks += breaks.len();
-        if breaks.is_empty() { Ok(()) } else { self.writer.send(Job::Breaks(breaks.to_vec())) }
+    /// Hands the bonds that broke and the impacts that ended in this communication step, and are not told yet, to the writer.
+    fn write_events(&mut self) -> Result<(), OutputError> {
+        let (state, told) = (self.simulation.state(), self.told);
+        self.told = happened(state);
+        let breaks = state.breaks.get(told[0]..).unwrap_or_default();
+        if !breaks.is_empty() {
+            self.writer.send(Job::Breaks(breaks.to_vec()))?;
+        }
+        let impacts = impacts(state).get(told[1]..).unwrap_or_default();
+        if impacts.is_empty() { Ok(()) } else { self.writer.send(Job::Impacts(impacts.to_vec())) }
     }
 
     /// Hands the outputs that are due to the writer.
@@ -283,6 +301,11 @@ impl<'a> Session<'a> {
         if let Err(moved) = self.lock.expect_in_place() {
             return Err(result.err().unwrap_or(moved.into()));
         }
+        let histograms = match &self.simulation.state().traces {
+            Some(traces) => write_histograms(&self.order.folder.join(HISTOGRAMS), self.order.scene, traces),
+            None => Ok(()),
+        };
+        let result = result.and(histograms.map_err(Failure::from));
         let path = self.order.folder.join(SUMMARY);
         let written = write_whole(&path, summary.to_json().as_bytes(), Durability::Process);
         result.and(written.map_err(Failure::from)).map(|()| summary)

@@ -5,9 +5,9 @@ use crate::base::geometry::lattice::STRAINS;
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
 use crate::engine::state::Clock;
 use crate::interface::{Interface, MOST_COLUMNS};
-use crate::laws::contact::{Material, MaterialPair, PairProperties};
+use crate::laws::contact::{Material, MaterialPair, Properties, property};
 use crate::scene::exchange::Amount;
-use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Grid, Scene, Step};
 
 /// Part of the stable step above which a given step is said to be near it.
 const NEAR_THE_BOUND: f64 = 0.8;
@@ -41,6 +41,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(columns(scene));
     remarks.extend(passed_through(scene));
     remarks.extend(cracks(scene));
+    remarks.extend(cells(scene));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
     remarks.extend(falling(scene));
@@ -65,6 +66,22 @@ fn cracks(scene: &Scene) -> Vec<String> {
     let told = scene.boundaries.iter().filter_map(crack);
     told.map(|(name, crack)| format!("[boundary.{name}] mesh: {crack}; weld_distance above that makes them one"))
         .collect()
+}
+
+/// On grids whose cells are smaller than particles.
+fn cells(scene: &Scene) -> Vec<String> {
+    let largest = 2.0 * scene.radii().fold(0.0, f64::max);
+    let small = |grid: &Grid| {
+        let least = grid.shape.edges().into_iter().fold(f64::INFINITY, f64::min);
+        (least < largest).then(|| {
+            format!(
+                "[grid.{}] counts: cells are {least:.3e} m wide and particles up to {largest:.3e} m; fields show single particles there, \
+                 cells of three diameters show the mean of many",
+                grid.name
+            )
+        })
+    };
+    scene.grids.iter().filter_map(small).collect()
 }
 
 /// On a given step near the stable one.
@@ -225,13 +242,13 @@ fn unusual(scene: &Scene) -> Vec<String> {
     }
     for (table, properties) in pairs(scene) {
         let keys = [
-            ("friction", properties.friction, "", USUAL_FRICTION),
-            ("rolling_friction", properties.rolling_friction, "", USUAL_FRICTION),
-            ("surface_energy", properties.surface_energy, " J/m²", USUAL_SURFACE_ENERGIES),
+            (&property::FRICTION, "", USUAL_FRICTION),
+            (&property::ROLLING_FRICTION, "", USUAL_FRICTION),
+            (&property::SURFACE_ENERGY, " J/m²", USUAL_SURFACE_ENERGIES),
         ];
-        for (key, value, unit, range) in keys {
-            if let Some(value) = value {
-                look(format!("[{table}] {key}"), value.get(), unit, range);
+        for (key, unit, range) in keys {
+            if let Some(value) = properties.get(key) {
+                look(format!("[{table}] {}", key.name), value, unit, range);
             }
         }
     }
@@ -239,7 +256,7 @@ fn unusual(scene: &Scene) -> Vec<String> {
 }
 
 /// The tables of pairs of materials, by name, each once.
-fn pairs(scene: &Scene) -> impl Iterator<Item = (String, &PairProperties)> {
+fn pairs(scene: &Scene) -> impl Iterator<Item = (String, &Properties)> {
     let count = scene.materials.len();
     let name = |index: usize| &scene.materials[index].name;
     let entries = (0..count).flat_map(move |a| (a..count).map(move |b| (a, b)));
@@ -253,11 +270,11 @@ fn unread(scene: &Scene) -> Vec<String> {
     let mut remarks = Vec::new();
     for ((a, b), (table, properties)) in entries.zip(pairs(scene)) {
         let laws: Vec<_> = scene.contacts.iter().filter(|law| law.between[a * count + b]).collect();
-        let with = |law: &ContactLaw, properties: &PairProperties| {
+        let with = |law: &ContactLaw, properties: &Properties| {
             let pair = MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties };
             law.choice.coefficients(&pair).ok()
         };
-        let is_read = |variants: &[PairProperties; 2]| {
+        let is_read = |variants: &[Properties]| {
             laws.iter().any(|law| variants.iter().any(|other| with(law, other) != with(law, properties)))
         };
         let keys: Vec<_> =
@@ -303,6 +320,11 @@ fn idle(scene: &Scene) -> Vec<String> {
                 Material { poissons_ratio: None, ..material.clone() },
             ),
         ];
+        let declared = material.properties.iter().map(|(property, _)| {
+            let without = material.properties.clone().without(property);
+            (property.name, true, Material { properties: without, ..material.clone() })
+        });
+        let optional: Vec<_> = elastic.into_iter().chain(declared).collect();
         let is_read = |other: &Material| {
             (0..count).any(|partner| {
                 let entry = index * count + partner;
@@ -317,7 +339,7 @@ fn idle(scene: &Scene) -> Vec<String> {
             })
         };
         let keys: Vec<_> =
-            elastic.iter().filter(|(_, given, other)| *given && !is_read(other)).map(|(key, ..)| *key).collect();
+            optional.iter().filter(|(_, given, other)| *given && !is_read(other)).map(|(key, ..)| *key).collect();
         if !keys.is_empty() {
             remarks.push(format!(
                 "[material.{}] {}: nothing reads it; no contact law takes it",
@@ -339,7 +361,7 @@ fn idle(scene: &Scene) -> Vec<String> {
 /// On columns of `history.csv` that are left out because there would be very many.
 fn columns(scene: &Scene) -> Option<String> {
     let interface = Interface::of(scene);
-    let all = interface.outputs().filter(|(_, variable)| variable.node().is_none()).count();
+    let all = interface.outputs().filter(|(_, variable)| variable.element().is_none()).count();
     (scene.output.columns.is_none() && all > MOST_COLUMNS).then(|| {
         format!(
             "[output] columns: history.csv has {} of {all} outputs, without those of groups of particles; columns names those that you \
@@ -381,7 +403,7 @@ fn cohesion(scene: &Scene) -> Vec<String> {
     let pairs = (0..count).flat_map(|a| (a..count).map(move |b| (a, b)));
     let deep = pairs.filter_map(|(a, b)| {
         let ratio = scene.cohesion_ratio(a, b).filter(|ratio| *ratio > DEEP_COHESION)?;
-        let density = scene.pairs[a * count + b].cohesion_energy_density?.get();
+        let density = scene.pairs[a * count + b].get(&property::COHESION_ENERGY_DENSITY)?;
         let effect = if ratio > COLLAPSING_COHESION { "contacts collapse" } else { "contacts rest deep in each other" };
         let [a, b] = [a, b].map(|index| &scene.materials[index].name);
         Some(format!(

@@ -5,7 +5,7 @@ use super::remarks::missed;
 use crate::base::words::{counted, plain};
 use crate::engine::simulation::{ContactRecord, Description, Simulation};
 use crate::engine::statics::{Factorise, Motionless, come_to_rest};
-use crate::laws::contact::PairProperties;
+use crate::laws::contact::{Properties, property};
 use crate::output::results::files::{Checkpoint, EarlierFile, claim_unsettled, is_same, write_checkpoint};
 use crate::output::results::{Failure, OutputError, Refusal};
 use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, SceneDraft};
@@ -340,7 +340,7 @@ fn velocities(simulation: &Simulation) -> Vec<[f64; 3]> {
 
 /// The law whose rolling friction makes bodies tremble about rest for ever: its torque changes its sign from step to step.
 fn trembles(scene: &Scene) -> Option<&ContactLaw> {
-    let rubs = |pair: &PairProperties| pair.rolling_friction.is_some_and(|friction| friction.get() > 0.0);
+    let rubs = |pair: &Properties| pair.get(&property::ROLLING_FRICTION).is_some_and(|friction| friction > 0.0);
     let rolls = |law: &&ContactLaw| law.choice.rolling.name() == "cdt";
     scene.contacts.iter().find(rolls).filter(|_| scene.pairs.iter().any(rubs))
 }

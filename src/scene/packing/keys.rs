@@ -1,6 +1,6 @@
 //! Lattices and random packings as a scene writes them.
 
-use crate::base::quantity::{Corners, Fraction, Numbers, Positive, Triple};
+use crate::base::quantity::{Corners, Counts, Fraction, Numbers, Positive, Triple};
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
@@ -66,20 +66,6 @@ pub(crate) struct CylinderTable {
     pub(crate) to: Triple,
     /// Radius \[m\].
     pub(crate) radius: Positive,
-}
-
-/// Cells along each axis, each at least 1.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Counts(pub(crate) [u32; 3]);
-
-impl<'de> Deserialize<'de> for Counts {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let counts = Vec::<NonZeroU32>::deserialize(deserializer)?;
-        match counts[..] {
-            [x, y, z] => Ok(Self([x.get(), y.get(), z.get()])),
-            _ => Err(D::Error::custom(format!("expected [nx, ny, nz], found {} numbers", counts.len()))),
-        }
-    }
 }
 
 /// Least and largest radius \[m\].

@@ -94,8 +94,8 @@ fn filled(
 mod tests {
     use super::*;
     use crate::base::quantity::Corners;
+    use crate::base::quantity::Counts;
     use crate::base::quantity::Positive;
-    use crate::scene::packing::keys::Counts;
 
     /// A lattice of unit spheres that touch.
     fn touching(kind: LatticeKind) -> LatticeTable {

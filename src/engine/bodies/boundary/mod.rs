@@ -135,6 +135,7 @@ impl RigidBody {
             momentum: self.about_free(moved.inertial.angular_momentum),
             force: self.along_free(moved.inertial.load),
             moment: self.about_free(moved.inertial.couple),
+            dashpots: [0.0; 2],
         }
     }
 

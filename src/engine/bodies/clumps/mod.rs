@@ -117,6 +117,7 @@ pub(super) fn unloaded(clumps: &Clumps, clump: usize) -> Body<'_> {
             momentum: Vector::from(clumps.angular_momentum[clump]),
             force: none[0],
             moment: none[1],
+            dashpots: [0.0; 2],
         },
         moves: [true; 3],
         point: Vector::from(clumps.position[clump]),
@@ -133,8 +134,9 @@ pub(super) fn unloaded(clumps: &Clumps, clump: usize) -> Body<'_> {
 /// How a clump moves.
 #[inline(always)]
 fn rigid(clumps: &Clumps, clump: usize) -> Rigid {
-    let [force, moment] = [clumps.force[clump], clumps.moment[clump]].map(Vector::from);
-    Rigid { force, moment, ..unloaded(clumps, clump).rigid }
+    let rows = [clumps.force[clump], clumps.moment[clump]];
+    let [force, moment] = rows.map(Vector::from);
+    Rigid { force, moment, dashpots: rows.map(|row| row[3]), ..unloaded(clumps, clump).rigid }
 }
 
 /// A clump, numbered from 0.
@@ -146,6 +148,12 @@ pub(super) fn body(clumps: &Clumps, clump: usize) -> Body<'_> {
 /// Finds the angular velocity of a clump from its angular momentum.
 pub(crate) fn set_spin(clumps: &mut Clumps, clump: usize) {
     clumps.angular_velocity[clump] = rigid(clumps, clump).spin().row_with(0.0);
+}
+
+/// What kicks of these lengths \[s\] with the present load give to the angular velocity of a clump \[rad/s\].
+pub(crate) fn turns(clumps: &Clumps, clump: usize, lengths: [f64; 2]) -> [Vector; 2] {
+    let still = Rigid { momentum: Vector::zero(), ..rigid(clumps, clump) };
+    lengths.map(|length| still.kicked(length).spin())
 }
 
 /// What half a kick of a step of this length \[s\] with the present load gives to the motion of a clump \[m/s, rad/s\].

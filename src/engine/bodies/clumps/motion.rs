@@ -250,14 +250,16 @@ unsafe fn read<N: Lane>(rows: Rows, first: usize) -> ([N; 4], Rigid<N>) {
     // SAFETY: the caller's promise.
     unsafe {
         let velocity = rows.velocity.load_block(first);
+        let (force, moment) = (rows.force.load_block(first), rows.moment.load_block(first));
         let rigid = Rigid {
             velocity: vector(velocity),
             mass: velocity[3],
             turn: Quaternion::from_row(rows.orientation.load_block(first)),
             inertia: vector(rows.inertia.load_block(first)),
             momentum: vector(rows.momentum.load_block(first)),
-            force: vector(rows.force.load_block(first)),
-            moment: vector(rows.moment.load_block(first)),
+            force: vector(force),
+            moment: vector(moment),
+            dashpots: [force[3], moment[3]],
         };
         (rows.position.load_block(first), rigid)
     }

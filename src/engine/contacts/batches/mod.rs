@@ -20,6 +20,7 @@ mod law;
 mod lost;
 mod parting;
 mod phases;
+mod tracing;
 mod whole_laws;
 
 use crate::base::lanes::{self, Lane, Width};
@@ -27,7 +28,9 @@ use crate::base::number::Number;
 use crate::engine::contacts::coefficients::CoefficientTable;
 use crate::engine::state::contacts::{BONDED, LASTING, RELEASED, SILENT};
 use crate::laws::contact::Needs;
-pub(crate) use crate::laws::contact::batch::{Buffer, ContactGeometry, Entries, FOUND, SpherePair, Touching};
+pub(crate) use crate::laws::contact::batch::{
+    Buffer, ContactGeometry, Entries, FOUND, Followed, Parted, SpherePair, Touching, Trace,
+};
 use crate::laws::contact::batch::{Conducting, EntryEvaluation, Stage};
 pub(crate) use deepest::DeepestSearch;
 pub(crate) use law::BatchLaw;
@@ -146,6 +149,8 @@ pub(crate) struct Batches<'a, B> {
     pub deepest: &'a DeepestSearch,
     /// What conducts heat, if anything does.
     pub conducting: Option<Conducting<'a>>,
+    /// Whether contacts are followed one by one.
+    pub follows: bool,
 }
 
 impl<B: Bodies> Batches<'_, B> {
@@ -160,6 +165,22 @@ impl<B: Bodies> Batches<'_, B> {
         Buffer::with(|buffer| {
             buffer.losses.begin();
             let sum = self.run_in(buffer, from..to, ahead);
+            (sum, Lost::of(buffer.losses.end()))
+        })
+    }
+
+    /// The same, and what single contacts did.
+    pub(crate) fn run_followed(
+        &self,
+        from: usize,
+        to: usize,
+        ahead: Range<usize>,
+        found: &mut Followed,
+    ) -> (B::Sum, Lost) {
+        Buffer::with(|buffer| {
+            buffer.losses.begin();
+            let sum = self.run_in(buffer, from..to, ahead);
+            found.take(&buffer.losses.followed);
             (sum, Lost::of(buffer.losses.end()))
         })
     }
@@ -232,6 +253,9 @@ impl<B: Bodies> Batches<'_, B> {
                         bodies.warm(buffer.first[place], buffer.second[place], heat, sum);
                     }
                 }
+            }
+            if self.follows && !is_suppressed && !runs.is_empty() {
+                self.trace(buffer);
             }
             buffer.proceed(B::FOUND);
         }

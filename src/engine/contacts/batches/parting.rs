@@ -1,6 +1,6 @@
 //! What is lost with a contact whose bodies have parted.
 
-use super::{Batches, Bodies, FOUND};
+use super::{Batches, Bodies, FOUND, Parted};
 use crate::engine::state::Row;
 use crate::laws::contact::batch::Sums;
 use crate::laws::contact::{Contact, parting};
@@ -32,6 +32,20 @@ impl<B: Bodies> Parting<'_, '_, B> {
             if booked.warms() {
                 let bodies = &self.work.bodies;
                 bodies.warm(bodies.first()[entry], bodies.second()[entry], 0.5 * booked.heat(&lost), self.sum);
+            }
+            if self.work.follows
+                && let Some(place) = self.work.law.law.history_places().impact
+            {
+                let bodies = &self.work.bodies;
+                let [along, across] = booked.by_direction(&lost).map(|energy| 0.5 * energy);
+                // SAFETY: the caller's promise.
+                let kept = unsafe { self.work.entries.history(entry) };
+                self.losses.followed.parted.push(Parted {
+                    first: bodies.first()[entry],
+                    second: bodies.second()[entry],
+                    rows: [kept[place], kept[place + 1]],
+                    lost: [along, across + 0.5 * held],
+                });
             }
             self.losses.add_parted((lost, held));
         }

@@ -236,7 +236,7 @@ impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for GeometryPhase<'
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { bodies, mut needs, buffer, so_far, deeper } = self;
-        let so_far = N::splat(so_far);
+        let (so_far, mut excess) = (N::splat(so_far), N::zero());
         if !RARE {
             needs = needs.without_rare();
         }
@@ -251,12 +251,13 @@ impl<B: Bodies, const TORQUE: bool, const RARE: bool> Kernel for GeometryPhase<'
                 let next = B::roots(&buffer.found::<N>(done + N::WIDTH, B::FOUND));
                 let geometry = bodies.meet::<N, TORQUE>(first, second, found, roots);
                 let smaller = B::smaller_radius(found, geometry.contact.radius);
-                *deeper |= N::bits(geometry.contact.overlap.greater(smaller * so_far));
+                excess = excess.max(geometry.contact.overlap - smaller * so_far);
                 buffer.put::<N, TORQUE>(done, &geometry, needs);
                 roots = next;
             }
             done += N::WIDTH;
         }
+        *deeper = N::bits(excess.greater(N::zero()));
     }
 }
 

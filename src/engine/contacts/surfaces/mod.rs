@@ -9,6 +9,7 @@ mod history;
 mod nodes;
 mod plane;
 mod sphere;
+mod traces;
 
 use super::ahead::{Frame, Link, Meeting, SearchLimits};
 use super::listed;
@@ -34,6 +35,7 @@ use plane::{AtPlane, Plane, PlaneList};
 use sphere::{Load, ParticleLoads};
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError, RwLock};
+use traces::{SurfaceFollower, TraceRoom};
 
 /// Particles in one piece of work.
 const PIECE: usize = 2 * CHUNK;
@@ -70,6 +72,8 @@ pub(super) struct AtSurface {
     body: Option<RigidBody>,
     /// Which share of the heat of losses it takes.
     share_of_heat: f64,
+    /// Who follows its contacts one by one, if anybody does.
+    follower: Option<SurfaceFollower>,
     /// Rows that are stored for each contact.
     kept_rows: usize,
     /// Coefficients of the law.
@@ -166,6 +170,7 @@ impl AtSurface {
             body,
             // An adiabatic surface leaves all to the particle.
             share_of_heat: if takes_heat(boundary) { 0.5 } else { 0.0 },
+            follower: SurfaceFollower::of(scene, boundary),
             kept_rows: scene.kept_rows(law).len(),
             table: CoefficientTable::of(choice, scene),
             law: BatchLaw::of_scene(scene, law),
@@ -191,7 +196,8 @@ impl AtSurface {
                 let [from, to] =
                     [slots.start, slots.end].map(|end| bodies.particle.partition_point(|&slot| (slot as usize) < end));
                 let batches = self.batches(bodies, work.entries[self.index], work);
-                let load = self.run(&batches, from..to);
+                let load = self.run(&batches, from..to, contacts.traces_mut());
+                self.trace_plane(&batches, contacts.traces_mut());
                 Load { conveying_power: -bodies.plane.conveying.dot(load.force.into()), ..load }
             }
             Touched::Features(_) | Touched::Nodes(_) => self.piece_at_features(work, slots, contacts),
@@ -208,8 +214,12 @@ impl AtSurface {
     }
 
     /// Evaluates a piece of a list.
-    fn run<B: Bodies<Sum = Load>>(&self, batches: &Batches<B>, entries: Range<usize>) -> Load {
+    fn run<B: Bodies<Sum = Load>>(&self, batches: &Batches<B>, entries: Range<usize>, traces: &mut TraceRoom) -> Load {
         let Range { start, end } = entries;
+        if batches.follows {
+            let (load, lost) = batches.run_followed(start, end, 0..0, &mut traces.followed);
+            return Load { lost, ..load };
+        }
         if self.law.law.is_booked() {
             let (load, lost) = batches.run_booked(start, end, 0..0);
             return Load { lost, ..load };
@@ -233,6 +243,7 @@ impl AtSurface {
                 .law
                 .conducting(self.table.uniform_entry_with(self.material))
                 .filter(|_| work.conducts && self.share_of_heat > 0.0),
+            follows: self.follower.is_some(),
         }
     }
 
@@ -346,6 +357,10 @@ impl Pass for SurfacePass {
                 surface.load_nodes(state, found().map(FeatureContacts::held));
             }
             surface.note_deepest(state, std::mem::replace(&mut workspace.deepest[place], DeepestSearch::beyond(0.0)));
+            if let Some(follower) = &surface.follower {
+                let found = workspace.contacts.iter().skip(place).step_by(count);
+                found.for_each(|piece| follower.book(piece.traces(), state));
+            }
             result = result.and(surface.book(state, workspace.loads.iter().skip(place).step_by(count)));
         }
         result
@@ -375,6 +390,11 @@ impl Pass for SurfacePass {
         for surface in &mut self.surfaces {
             surface.table.take(&state.coefficients[state.walls[surface.index].law as usize]);
         }
+    }
+
+    fn let_go(&self, state: &mut State, goes: &[bool], _step: f64) -> f64 {
+        self.surfaces.iter().for_each(|surface| surface.end_impacts(state, goes));
+        0.0
     }
 
     fn prepare(&self, state: &mut State) {

@@ -5,6 +5,7 @@ use super::super::time_step::TimeStep;
 use crate::base::threads::Context;
 use crate::engine::bodies::{self, RigidBody};
 use crate::engine::boundaries::{loads, nodes};
+use crate::engine::fluid;
 use crate::engine::state::ledger::Source;
 
 impl Simulation {
@@ -88,10 +89,19 @@ impl Simulation {
         self.suppression.settle(&mut self.state);
     }
 
+    /// Adds the forces of the fluid to those on particles.
+    pub(super) fn act_by_fluid(&mut self, step: &mut TimeStep) {
+        let Self { medium, fields, state, workspace, .. } = self;
+        if let Some(medium) = medium {
+            workspace.between.before_fields(state);
+            fluid::load(medium, state, fields, step.context);
+        }
+    }
+
     /// Puts the whole load on bodies.
     pub(super) fn load_bodies(&mut self, context: &Context) {
-        let Self { scene, fields, bodies, state, workspace, .. } = self;
+        let Self { scene, fields, medium, bodies, state, workspace, .. } = self;
         loads::sum_groups(scene, state);
-        workspace.braking = bodies::loads::load(fields, bodies, state, context);
+        workspace.braking = bodies::loads::load((fields, medium.as_ref()), bodies, state, context);
     }
 }

@@ -6,6 +6,7 @@ use crate::base::number::larger;
 use crate::base::threads::Context;
 use crate::engine::bodies::{book, boundary};
 use crate::engine::boundaries::{loads, nodes};
+use crate::engine::fluid::{self, Kick};
 use crate::engine::{energy, integration, transfer};
 
 impl Simulation {
@@ -29,7 +30,8 @@ impl Simulation {
     /// Adds gravity, applied forces and global damping to the loads on particles.
     pub(in crate::engine::simulation) fn apply_fields(&mut self, context: &Context) {
         let Self { fields, state, workspace, .. } = self;
-        if fields.act() {
+        // In a fluid they were stored before that acted.
+        if fields.act() && self.medium.is_none() {
             workspace.between.before_fields(state);
         }
         let on_particles = fields.apply(state, context);
@@ -53,6 +55,13 @@ impl Simulation {
         let Self { state, fields, bodies, workspace, .. } = self;
         energy::work::book_second(state, &mut workspace.between, (fields, gravity), bodies, context);
         book::book_losses(state, fields, bodies, context.step);
+    }
+
+    /// Books what the fluid does in the half kick that is about to end the step.
+    pub(super) fn book_fluid_second(&mut self, step: &mut TimeStep) {
+        if let Some(medium) = &self.medium {
+            fluid::book(medium, &mut self.state, Kick::Second, step.context);
+        }
     }
 
     /// Makes the second half of the kick of the particles that forces move.

@@ -53,6 +53,10 @@ pub enum Part {
     Cell,
     /// Temperatures, and the heat of particles and boundaries.
     Heat,
+    /// The fluid: its velocity, and what it exchanged with the particles.
+    Fluid,
+    /// What contacts leave behind: wear, losses of facets, impacts that ended.
+    Traces,
     /// Energy books, and the impulse of global damping.
     Books,
     /// The largest speed of what forces move, and how far all went since the stable step was found.
@@ -61,7 +65,7 @@ pub enum Part {
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Places,
         Self::Motions,
         Self::Loads,
@@ -73,6 +77,8 @@ impl Part {
         Self::Clumps,
         Self::Cell,
         Self::Heat,
+        Self::Fluid,
+        Self::Traces,
         Self::Books,
         Self::Speed,
     ];

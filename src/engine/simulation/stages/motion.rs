@@ -4,6 +4,7 @@ use super::super::Simulation;
 use super::super::time_step::TimeStep;
 use crate::engine::bodies::boundary;
 use crate::engine::boundaries::{course, nodes};
+use crate::engine::fluid::{self, Kick};
 use crate::engine::{energy, integration};
 
 impl Simulation {
@@ -27,6 +28,20 @@ impl Simulation {
         let length = step.length();
         energy::work::book_first(&mut self.state, &self.fields, &self.bodies, length);
         energy::losses::begin_step(&mut self.state, &self.fields, &self.bodies, length);
+    }
+
+    /// Books what the fluid does in the half kick that is about to begin the step.
+    pub(super) fn book_fluid_first(&mut self, step: &mut TimeStep) {
+        if let Some(medium) = &self.medium {
+            fluid::book(medium, &mut self.state, Kick::First, step.context);
+        }
+    }
+
+    /// Brings the velocity of the fluid to the end of the step.
+    pub(super) fn advance_fluid(&mut self, step: &mut TimeStep) {
+        if let (Some(fluid), Some(state)) = (&self.scene.fluid, &mut self.state.fluid) {
+            fluid::advance(fluid, state, &step.progress);
+        }
     }
 
     /// Makes the first half of the kick and the drift of the particles that forces move. Their loads are zero then.

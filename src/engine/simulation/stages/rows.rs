@@ -1,7 +1,8 @@
 //! The list of the stages.
 
 use super::Part::{
-    Bonds, Books, Boundaries, Cell, Clumps, Contacts, Heat, Lists, Loads, Motions, Particles, Places, Speed,
+    Bonds, Books, Boundaries, Cell, Clumps, Contacts, Fluid, Heat, Lists, Loads, Motions, Particles, Places, Speed,
+    Traces,
 };
 use super::{Phase, Simulation, Stage};
 use crate::engine::state::ledger::Source;
@@ -18,6 +19,14 @@ const MOTION: &[Stage] = &[
         reads: &[Motions, Loads, Boundaries, Clumps],
         writes: &[Books],
         run: Simulation::book_first_half,
+    },
+    Stage {
+        name: "fluid in the first half kick",
+        scenes: "fluid",
+        is_needed: |it| it.medium.is_some(),
+        reads: &[Motions, Loads, Clumps, Fluid],
+        writes: &[Fluid, Books],
+        run: Simulation::book_fluid_first,
     },
     Stage {
         name: "first half kick and drift",
@@ -60,6 +69,14 @@ const MOTION: &[Stage] = &[
         run: Simulation::deform_cell,
     },
     Stage {
+        name: "velocity of the fluid",
+        scenes: "fluid",
+        is_needed: |it| it.medium.is_some(),
+        reads: &[],
+        writes: &[Fluid],
+        run: Simulation::advance_fluid,
+    },
+    Stage {
         name: "passed particles",
         scenes: "groups",
         is_needed: |it| it.scene.boundaries.iter().any(|boundary| !boundary.shape.members().is_empty()),
@@ -80,7 +97,7 @@ const MOTION: &[Stage] = &[
         scenes: "insertions, outlets, flow meters",
         is_needed: |it| it.flow.is_some(),
         reads: &[Motions, Boundaries],
-        writes: &[Places, Motions, Loads, Particles, Lists, Contacts, Bonds, Clumps, Cell, Books, Speed],
+        writes: &[Places, Motions, Loads, Particles, Lists, Contacts, Bonds, Clumps, Cell, Books, Speed, Traces],
         run: Simulation::exchange,
     },
     Stage {
@@ -132,7 +149,7 @@ const FORCES: &[Stage] = &[
         scenes: "contact laws",
         is_needed: |it| it.acts(Source::Contacts),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Books, Heat],
+        writes: &[Loads, Contacts, Books, Heat, Traces],
         run: |it, step| it.act(Source::Contacts, step),
     },
     Stage {
@@ -204,7 +221,7 @@ const FORCES: &[Stage] = &[
         scenes: "surfaces that particles may meet",
         is_needed: |it| it.acts(Source::Walls),
         reads: &[Places, Motions, Lists],
-        writes: &[Loads, Contacts, Boundaries, Books, Heat],
+        writes: &[Loads, Contacts, Boundaries, Books, Heat, Traces],
         run: |it, step| it.act(Source::Walls, step),
     },
     Stage {
@@ -224,10 +241,18 @@ const FORCES: &[Stage] = &[
         run: Simulation::release_contacts,
     },
     Stage {
+        name: "fluid",
+        scenes: "fluid",
+        is_needed: |it| it.medium.is_some(),
+        reads: &[Motions, Fluid],
+        writes: &[Loads, Fluid],
+        run: Simulation::act_by_fluid,
+    },
+    Stage {
         name: "loads on bodies",
         scenes: "groups, clumps, surfaces that forces move",
         is_needed: Simulation::has_bodies,
-        reads: &[Places, Motions, Loads],
+        reads: &[Places, Motions, Loads, Fluid],
         writes: &[Boundaries, Clumps],
         run: |it, step| it.load_bodies(step.context),
     },
@@ -245,7 +270,7 @@ const KICK: &[Stage] = &[
     },
     Stage {
         name: "fields",
-        scenes: "applied forces, global damping",
+        scenes: "applied forces, global damping, fluid",
         is_needed: |it| it.fields.act_beside_weight(),
         reads: &[Motions],
         writes: &[Loads, Books],
@@ -274,6 +299,14 @@ const KICK: &[Stage] = &[
         reads: &[Motions, Loads, Boundaries, Clumps],
         writes: &[Books],
         run: Simulation::book_second_half,
+    },
+    Stage {
+        name: "fluid in the second half kick",
+        scenes: "fluid",
+        is_needed: |it| it.medium.is_some(),
+        reads: &[Motions, Loads, Clumps, Fluid],
+        writes: &[Fluid, Books],
+        run: Simulation::book_fluid_second,
     },
     Stage {
         name: "second half kick",

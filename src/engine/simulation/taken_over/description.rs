@@ -293,8 +293,8 @@ fn course(scene: &Scene) -> u64 {
     rest.run.max_overlap = defaults.max_overlap;
     rest.run.central_derivatives = defaults.central_derivatives;
     rest.run.derivative_displacement = defaults.derivative_displacement;
-    let Output { energy, losses, .. } = scene.output;
-    rest.output = Output { energy, losses, ..Output::default() };
+    let Output { energy, losses, impacts, .. } = scene.output;
+    rest.output = Output { energy, losses, impacts, ..Output::default() };
     // Writing to a fingerprint has no way to fail.
     let _ = write!(hashed, "{rest:?}");
     hashed.0.digest()

@@ -75,10 +75,12 @@ mod column {
     pub(crate) const SPRING: [usize; 3] = [38, 39, 40];
     /// Of a book of losses: velocity along the normal at mid-step.
     pub(crate) const VELOCITY: usize = 41;
+    /// Of impacts: what is lost along the normal and across it.
+    pub(crate) const LOST: [usize; 2] = [42, 43];
     /// Radius of the circle of contact; then the conductance.
-    pub(crate) const CONDUCTANCE: usize = 42;
+    pub(crate) const CONDUCTANCE: usize = 44;
     /// How many there are.
-    pub(crate) const COUNT: usize = 43;
+    pub(crate) const COUNT: usize = 45;
 }
 use column as at;
 
@@ -491,6 +493,24 @@ impl Buffer {
     pub(crate) unsafe fn put_heat<N: Lane>(&mut self, place: usize, heat: N) {
         // SAFETY: the caller's promise.
         unsafe { self.store(at::SPRING[0], place, heat) };
+    }
+
+    /// Stores what a register's worth of contacts lose along the normal and across it \[J\].
+    ///
+    /// # Safety
+    /// As for [`Buffer::store`].
+    #[inline(always)]
+    pub(crate) unsafe fn put_lost<N: Lane>(&mut self, place: usize, [along, across]: [N; 2]) {
+        // SAFETY: the caller's promise.
+        unsafe {
+            self.store(at::LOST[0], place, along);
+            self.store(at::LOST[1], place, across);
+        }
+    }
+
+    /// What a contact loses along the normal and across it \[J\].
+    pub(crate) fn lost(&self, place: usize) -> [f64; 2] {
+        at::LOST.map(|column| self.columns[column][place])
     }
 
     /// What of the losses of the contacts is heat, contact by contact \[J\].

@@ -126,6 +126,9 @@ pub(crate) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<
         if booked.warms() {
             stage.buffer.put_heat(place, booked.heat(&lost) * N::splat(0.5));
         }
+        if booked.follows {
+            stage.buffer.put_lost(place, booked.by_direction(&lost).map(|energy| energy * N::splat(0.5)));
+        }
         let mut kind = 0;
         while kind < LossKind::COUNT {
             if booked.takes(kind) {

@@ -12,6 +12,7 @@ mod sphere_pair;
 mod stage;
 mod sub_models;
 mod sums;
+mod trace;
 
 use super::Contact;
 use crate::base::lanes::{Lane, Width};
@@ -25,6 +26,7 @@ pub(crate) use sphere_pair::SpherePair;
 pub(crate) use stage::{FrictionResult, Stage};
 pub(crate) use sub_models::{before_sub_models, cohesion, normal, part, rolling, tangential, undeform_arms};
 pub(crate) use sums::Sums;
+pub(crate) use trace::{Followed, Parted, Trace};
 
 /// Most coefficients that a composed law may have.
 pub(crate) const MOST_COEFFICIENTS: usize = 32;

@@ -1,5 +1,6 @@
 //! What the contacts of a piece of a list lose while it is worked on.
 
+use super::trace::Followed;
 use crate::laws::contact::LossKind;
 
 /// Twice the losses of a piece of a list, while it is worked on.
@@ -10,12 +11,15 @@ pub(crate) struct Sums {
     pub(crate) columns: [[f64; 8]; LossKind::COUNT],
     /// Springs of contacts that ended \[J\].
     parted: f64,
+    /// What single contacts did, where they are followed.
+    pub(crate) followed: Followed,
 }
 
 impl Sums {
     /// Begins a piece.
     pub(crate) fn begin(&mut self) {
-        *self = Self::default();
+        (self.columns, self.parted) = Default::default();
+        self.followed.clear();
     }
 
     /// Adds twice what was lost with a contact that ended, by kind, and what its spring held \[J\].

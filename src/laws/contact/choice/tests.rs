@@ -2,16 +2,16 @@
 
 use super::*;
 use crate::base::number::{Row, Vector};
-use crate::base::quantity::Restitution;
 use crate::laws::contact::fixtures::{contact, corners, every_law, properties, with_pair};
+use crate::laws::contact::property;
 use crate::laws::contact::tangential::turned_history;
 use crate::laws::contact::{
-    Contact, Law, NoKeys, Offset, PairProperties, Reaction, TangentialModel, cohesion, normal, rolling, tangential,
+    Contact, Law, NoKeys, Offset, Reaction, TangentialModel, cohesion, normal, rolling, tangential,
 };
 
 /// The law and its coefficients at this restitution.
 fn law_of(choice: &LawChoice, restitution: f64) -> (Law, Vec<f64>) {
-    let properties = PairProperties { restitution: Restitution::new(restitution), ..properties() };
+    let properties = properties().with(&property::RESTITUTION, restitution);
     (Law::of(choice), with_pair(&properties, |pair| choice.coefficients(pair)).unwrap())
 }
 
@@ -118,7 +118,7 @@ fn names_are_those_of_the_files() {
 
 #[test]
 fn says_which_property_is_missing_and_where() {
-    let bare = PairProperties { friction: None, ..properties() };
+    let bare = properties().without(&property::FRICTION);
     let choice =
         LawChoice { tangential: TangentialModel::of::<tangential::history::History>(NoKeys {}), ..every_law()[0] };
     let missing = with_pair(&bare, |pair| choice.coefficients(pair)).unwrap_err();

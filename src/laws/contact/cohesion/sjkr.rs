@@ -1,7 +1,7 @@
 //! Attraction in proportion to the section of the overlapping bodies.
 
 use super::attraction::Attraction;
-use crate::laws::contact::{Cohesion, MaterialPair, Missing};
+use crate::laws::contact::{Cohesion, MaterialPair, Missing, property};
 use serde::Deserialize;
 
 /// A simplified JKR attraction: energy density times the area in which the bodies intersect.
@@ -47,7 +47,7 @@ impl Cohesion for Sjkr {
     type Form = Attraction;
 
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Attraction, Missing> {
-        Ok(Attraction::new(pair.cohesion_energy_density()?, 0.0, keys.seen_by_friction()))
+        Ok(Attraction::new(pair.get(&property::COHESION_ENERGY_DENSITY)?, 0.0, keys.seen_by_friction()))
     }
 
     fn reduces_friction(keys: &Keys) -> bool {

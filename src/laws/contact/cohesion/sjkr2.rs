@@ -2,7 +2,7 @@
 
 use super::attraction::Attraction;
 use super::sjkr::Keys;
-use crate::laws::contact::{Cohesion, MaterialPair, Missing};
+use crate::laws::contact::{Cohesion, MaterialPair, Missing, property};
 use std::f64::consts::PI;
 
 /// A simplified JKR attraction, linear in the overlap.
@@ -33,7 +33,7 @@ impl Cohesion for Sjkr2 {
     type Form = Attraction;
 
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Attraction, Missing> {
-        Ok(Attraction::new(0.0, 2.0 * PI * pair.cohesion_energy_density()?, keys.seen_by_friction()))
+        Ok(Attraction::new(0.0, 2.0 * PI * pair.get(&property::COHESION_ENERGY_DENSITY)?, keys.seen_by_friction()))
     }
 
     fn reduces_friction(keys: &Keys) -> bool {

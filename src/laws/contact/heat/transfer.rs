@@ -2,7 +2,7 @@
 
 use super::Spot;
 use crate::base::number::Number;
-use crate::laws::contact::{Heat, MaterialPair, Missing, NoKeys, coefficients};
+use crate::laws::contact::{Heat, MaterialPair, Missing, NoKeys, coefficients, property};
 use std::f64::consts::PI;
 
 coefficients! {
@@ -32,7 +32,7 @@ impl Heat for Transfer {
 
     fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
         let radius = pair.real_contact_radius()?;
-        Ok(Self::new(PI * pair.heat_transfer_coefficient()? * (radius * radius)))
+        Ok(Self::new(PI * pair.get(&property::HEAT_TRANSFER_COEFFICIENT)? * (radius * radius)))
     }
 
     #[inline(always)]
@@ -44,13 +44,12 @@ impl Heat for Transfer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::quantity::NonNegative;
-    use crate::laws::contact::PairProperties;
+
     use crate::laws::contact::fixtures::{assert_close, properties, with_pair};
 
     #[test]
     fn conducts_its_coefficient_times_the_area_of_contact() {
-        let properties = PairProperties { heat_transfer_coefficient: NonNegative::new(2000.0), ..properties() };
+        let properties = properties().with(&property::HEAT_TRANSFER_COEFFICIENT, 2000.0);
         let law = with_pair(&properties, |pair| Transfer::between(pair, &NoKeys {})).unwrap();
         let spot = Spot::of_spheres([5.0, 12.0], 4.0, 3.0);
         assert_close(Transfer::conductance(law, &spot), 2000.0 * PI * 9.0, 1e-15);

@@ -1,12 +1,12 @@
 //! A law does what its sub-models do, one after another.
 
 use super::*;
-use crate::base::quantity::NonNegative;
 use crate::laws::contact::cohesion::sjkr;
 use crate::laws::contact::fixtures::{assert_close, contact, every_law, properties, with_pair};
 use crate::laws::contact::normal::hooke_stiffness;
+use crate::laws::contact::property;
 use crate::laws::contact::{
-    CohesionModel, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel, cohesion, normal, rolling,
+    CohesionModel, NoKeys, NormalModel, Properties, RollingModel, TangentialModel, cohesion, normal, rolling,
     tangential,
 };
 
@@ -89,11 +89,7 @@ fn tangential_damping_can_be_switched_off() {
 
 #[test]
 fn asks_only_for_properties_that_are_used() {
-    let bare = PairProperties {
-        normal_stiffness: NonNegative::new(1.0),
-        normal_damping: NonNegative::new(1.0),
-        ..PairProperties::default()
-    };
+    let bare = Properties::default().with(&property::NORMAL_STIFFNESS, 1.0).with(&property::NORMAL_DAMPING, 1.0);
     let choice = LawChoice {
         rolling: RollingModel::of::<rolling::none::None>(NoKeys {}),
         cohesion: CohesionModel::of::<cohesion::none::None>(NoKeys {}),

@@ -17,6 +17,7 @@ const BOOKED: Booked = Booked {
     predicts_normal_alone: false,
     least_force: 0,
     warming: [false; LossKind::COUNT],
+    follows: false,
 };
 
 /// A contact of normal z whose springs and dashpots do nothing: k_n δ = 1024/16384 N, k_t = 8 N/m.

@@ -3,7 +3,7 @@
 use crate::base::number::{Number, Row};
 use crate::laws::contact::{
     Adhesion, Contact, FrictionNeeds, HistoryRow, MaterialPair, Missing, Needs, Normal, NormalForce, NormalForm,
-    Objection, Onset, Response, Roots, Switches, coefficients,
+    Objection, Onset, Response, Roots, Switches, coefficients, property,
 };
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -134,8 +134,8 @@ impl Normal for Eepa {
             (true, true) => 2.0 * modulus,
             (true, false) => 8.0 * pair.effective_shear_modulus()?,
         };
-        let log = libm::log(pair.restitution()?);
-        let ratio = pair.unloading_stiffness_ratio()?;
+        let log = libm::log(pair.get(&property::RESTITUTION)?);
+        let ratio = pair.get(&property::UNLOADING_STIFFNESS_RATIO)?;
         let plastic = 1.0 - 1.0 / ratio;
         let root = libm::cbrt(plastic);
         let fixed = keys.adhesion == AdhesionKind::Fixed;
@@ -146,12 +146,12 @@ impl Normal for Eepa {
             4.0 * log * log / (log * log + PI * PI),
             ratio,
             if linear { plastic } else { root * root },
-            if fixed { 0.0 } else { 1.5 * PI * pair.surface_energy()? },
-            pair.pull_off_force()?,
+            if fixed { 0.0 } else { 1.5 * PI * pair.get(&property::SURFACE_ENERGY)? },
+            pair.get(&property::PULL_OFF_FORCE)?,
             keys.overlap_exponent,
             keys.adhesion_exponent,
             number(fixed),
-            if fixed { pair.adhesion_stiffness_ratio()? } else { 0.0 },
+            if fixed { pair.get(&property::ADHESION_STIFFNESS_RATIO)? } else { 0.0 },
             number(keys.engine_exact),
         ))
     }
@@ -373,17 +373,13 @@ impl NormalForm for Eepa {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::quantity::{NonNegative, Restitution};
+
+    use crate::laws::contact::NoKeys;
     use crate::laws::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
-    use crate::laws::contact::{NoKeys, PairProperties};
 
     /// E* = 1 Pa, k₂/k₁ = 4, elastic dashpot, surface energy or attraction as given.
     fn law(keys: Keys, surface_energy: f64) -> Eepa {
-        let properties = PairProperties {
-            restitution: Restitution::new(1.0),
-            surface_energy: NonNegative::new(surface_energy),
-            ..properties()
-        };
+        let properties = properties().with(&property::RESTITUTION, 1.0).with(&property::SURFACE_ENERGY, surface_energy);
         with_pair(&properties, |pair| Eepa::between(pair, &keys, ALL)).unwrap()
     }
 
@@ -406,7 +402,7 @@ mod tests {
 
     #[test]
     fn damps_a_hertzian_contact_as_hertz_does_and_the_engine_whatever_the_exponent() {
-        let properties = PairProperties { restitution: Restitution::new(0.5), ..properties() };
+        let properties = properties().with(&property::RESTITUTION, 0.5);
         let damping = |keys: Keys| {
             let law = with_pair(&properties, |pair| Eepa::between(pair, &keys, ALL)).unwrap();
             Eepa::response(law, &contact()).normal_damping

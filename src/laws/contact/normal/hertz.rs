@@ -1,7 +1,7 @@
 //! Elastic spheres with viscous loss.
 
 use super::hertzian::Hertzian;
-use crate::laws::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset};
+use crate::laws::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset, property};
 
 /// Hertz's force with the damping of a constant coefficient of restitution.
 ///
@@ -38,7 +38,7 @@ impl Normal for Hertz {
     }
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, _friction: FrictionNeeds) -> Result<Hertzian, Missing> {
-        let log = libm::log(pair.restitution()?);
+        let log = libm::log(pair.get(&property::RESTITUTION)?);
         let beta = log / (log * log + std::f64::consts::PI * std::f64::consts::PI).sqrt();
         let (modulus, shear_modulus) = (pair.effective_youngs_modulus()?, pair.effective_shear_modulus()?);
         let damping = -2.0 * (5.0_f64 / 6.0).sqrt() * beta;
@@ -56,13 +56,13 @@ impl Normal for Hertz {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::quantity::Restitution;
+
     use crate::laws::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
-    use crate::laws::contact::{Contact, NormalForm, PairProperties};
+    use crate::laws::contact::{Contact, NormalForm};
 
     /// E* = 1 Pa, G* = ¼ Pa, √(R* δ) = 2⁻⁸ m, m* = 4 kg.
     fn law(restitution: f64) -> Hertzian {
-        let properties = PairProperties { restitution: Restitution::new(restitution), ..properties() };
+        let properties = properties().with(&property::RESTITUTION, restitution);
         with_pair(&properties, |pair| Hertz::between(pair, &NoKeys {}, ALL)).unwrap()
     }
 

@@ -1,7 +1,7 @@
 //! Hertz's force with a given stiffness.
 
 use super::hertzian::Hertzian;
-use crate::laws::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset};
+use crate::laws::contact::{FrictionNeeds, MaterialPair, Missing, NoKeys, Normal, Onset, property};
 
 /// A spring and dashpot that grow with the radius of the contact, scaled as the scene gives them.
 ///
@@ -35,12 +35,12 @@ impl Normal for HertzStiffness {
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, friction: FrictionNeeds) -> Result<Hertzian, Missing> {
         Ok(Hertzian::new(
-            pair.normal_stiffness()?,
-            if friction.stiffness { pair.tangential_stiffness()? } else { 0.0 },
+            pair.get(&property::NORMAL_STIFFNESS)?,
+            if friction.stiffness { pair.get(&property::TANGENTIAL_STIFFNESS)? } else { 0.0 },
             0.0,
             0.0,
-            pair.normal_damping()?,
-            if friction.damping { pair.tangential_damping()? } else { 0.0 },
+            pair.get(&property::NORMAL_DAMPING)?,
+            if friction.damping { pair.get(&property::TANGENTIAL_DAMPING)? } else { 0.0 },
         ))
     }
 }
@@ -49,7 +49,7 @@ impl Normal for HertzStiffness {
 mod tests {
     use super::*;
     use crate::laws::contact::fixtures::{ALL, NOTHING, assert_close, contact, properties, with_pair};
-    use crate::laws::contact::{Contact, NormalForm, PairProperties};
+    use crate::laws::contact::{Contact, NormalForm};
 
     /// κ_n = 100 Pa, κ_t = 50 Pa, g_n = 6/(m s), g_t = 3/(m s).
     fn law() -> Hertzian {
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn asks_for_nothing_tangential_where_nothing_uses_it() {
-        let bare = PairProperties { tangential_stiffness: None, tangential_damping: None, ..properties() };
+        let bare = properties().without(&property::TANGENTIAL_STIFFNESS).without(&property::TANGENTIAL_DAMPING);
         assert!(with_pair(&bare, |pair| HertzStiffness::between(pair, &NoKeys {}, NOTHING)).is_ok());
         assert!(with_pair(&bare, |pair| HertzStiffness::between(pair, &NoKeys {}, ALL)).is_err());
     }

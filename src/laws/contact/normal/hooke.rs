@@ -3,7 +3,7 @@
 use crate::base::number::{Number, Row};
 use crate::base::quantity::Positive;
 use crate::laws::contact::{
-    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients,
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients, property,
 };
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -64,7 +64,7 @@ impl Normal for Hooke {
 
     fn between(pair: &MaterialPair, keys: &Keys, _friction: FrictionNeeds) -> Result<Self, Missing> {
         let velocity = keys.characteristic_velocity.get();
-        let log = libm::log(pair.restitution()?);
+        let log = libm::log(pair.get(&property::RESTITUTION)?);
         let damping = 2.0 * (log * log / (log * log + PI * PI)).sqrt();
         Ok(Self::new(pair.effective_youngs_modulus()?, velocity * velocity, damping))
     }
@@ -102,14 +102,13 @@ impl NormalForm for Hooke {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::quantity::Restitution;
+
     use crate::laws::contact::fixtures::{ALL, assert_close, contact, properties, with_pair};
 
     /// At V = 2 m/s; E* is 1 Pa.
     fn law(restitution: f64) -> Hooke {
         let keys = Keys { characteristic_velocity: Positive::new(2.0).unwrap() };
-        let properties =
-            crate::laws::contact::PairProperties { restitution: Restitution::new(restitution), ..properties() };
+        let properties = properties().with(&property::RESTITUTION, restitution);
         with_pair(&properties, |pair| Hooke::between(pair, &keys, ALL)).unwrap()
     }
 

@@ -2,7 +2,7 @@
 
 use crate::base::number::{Number, Row};
 use crate::laws::contact::{
-    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients,
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients, property,
 };
 use serde::Deserialize;
 
@@ -60,15 +60,15 @@ impl Normal for HookeStiffness {
     }
 
     fn between(pair: &MaterialPair, keys: &Keys, friction: FrictionNeeds) -> Result<Self, Missing> {
-        let normal_stiffness = pair.normal_stiffness()?;
-        let tangential_stiffness = if friction.stiffness { pair.tangential_stiffness()? } else { 0.0 };
+        let normal_stiffness = pair.get(&property::NORMAL_STIFFNESS)?;
+        let tangential_stiffness = if friction.stiffness { pair.get(&property::TANGENTIAL_STIFFNESS)? } else { 0.0 };
         let (mut rates, mut dampings) = ([0.0; 2], [0.0; 2]);
         if keys.absolute_damping {
-            dampings[0] = pair.absolute_normal_damping()?;
-            dampings[1] = if friction.damping { pair.absolute_tangential_damping()? } else { 0.0 };
+            dampings[0] = pair.get(&property::ABSOLUTE_NORMAL_DAMPING)?;
+            dampings[1] = if friction.damping { pair.get(&property::ABSOLUTE_TANGENTIAL_DAMPING)? } else { 0.0 };
         } else {
-            rates[0] = pair.normal_damping()?;
-            rates[1] = if friction.damping { pair.tangential_damping()? } else { 0.0 };
+            rates[0] = pair.get(&property::NORMAL_DAMPING)?;
+            rates[1] = if friction.damping { pair.get(&property::TANGENTIAL_DAMPING)? } else { 0.0 };
         }
         Ok(Self::new(normal_stiffness, tangential_stiffness, rates[0], rates[1], dampings[0], dampings[1]))
     }
@@ -98,7 +98,7 @@ impl NormalForm for HookeStiffness {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::laws::contact::PairProperties;
+
     use crate::laws::contact::fixtures::{ALL, NOTHING, contact, properties, with_pair};
 
     /// What the law says of the fixture's contact, m* = 4 kg.
@@ -128,7 +128,7 @@ mod tests {
 
     #[test]
     fn asks_for_nothing_tangential_where_nothing_uses_it() {
-        let bare = PairProperties { tangential_stiffness: None, tangential_damping: None, ..properties() };
+        let bare = properties().without(&property::TANGENTIAL_STIFFNESS).without(&property::TANGENTIAL_DAMPING);
         let between = |friction| with_pair(&bare, |pair| HookeStiffness::between(pair, &Keys::default(), friction));
         assert!(between(NOTHING).is_ok());
         assert_eq!(between(ALL).unwrap_err().key, "tangential_stiffness");

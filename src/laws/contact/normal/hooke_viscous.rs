@@ -3,7 +3,7 @@
 use super::hooke;
 use crate::base::number::{Number, Row};
 use crate::laws::contact::{
-    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients,
+    Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Response, Roots, coefficients, property,
 };
 use std::f64::consts::PI;
 
@@ -53,8 +53,8 @@ impl Normal for HookeViscous {
         Ok(Self::new(
             pair.effective_youngs_modulus()?,
             velocity * velocity,
-            libm::log(pair.maximum_restitution()?),
-            6.0 * PI * pair.fluid_viscosity()? * pair.critical_stokes_number()?,
+            libm::log(pair.get(&property::MAXIMUM_RESTITUTION)?),
+            6.0 * PI * pair.get(&property::FLUID_VISCOSITY)? * pair.get(&property::CRITICAL_STOKES_NUMBER)?,
         ))
     }
 }

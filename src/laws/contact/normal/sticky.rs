@@ -1,7 +1,7 @@
 //! What models of sticky elastic spheres have in common.
 
 use crate::base::number::Number;
-use crate::laws::contact::{Contact, FrictionNeeds, MaterialPair, Missing, NormalForce, Response, Switches};
+use crate::laws::contact::{Contact, FrictionNeeds, MaterialPair, Missing, NormalForce, Response, Switches, property};
 use serde::Deserialize;
 
 /// What the damping of a sticky contact follows.
@@ -37,14 +37,14 @@ impl Keys {
     pub(super) fn coefficients(&self, pair: &MaterialPair, friction: FrictionNeeds) -> Result<[f64; 7], Missing> {
         let tangential = match (friction.stiffness, self.given_tangential_modulus) {
             (false, _) => 0.0,
-            (true, true) => pair.tangential_stiffness()?,
+            (true, true) => pair.get(&property::TANGENTIAL_STIFFNESS)?,
             (true, false) => 8.0 * pair.effective_shear_modulus()?,
         };
-        let damping = pair.damping_coefficient()?;
+        let damping = pair.get(&property::DAMPING_COEFFICIENT)?;
         let [viscoelastic, mass, plain] = [DampingKind::Viscoelastic, DampingKind::MassVelocity, DampingKind::Velocity]
             .map(|kind| if kind == self.damping { damping } else { 0.0 });
-        let ratio = if friction.damping { pair.tangential_damping_ratio()? } else { 0.0 };
-        let (modulus, energy) = (pair.effective_youngs_modulus()?, pair.surface_energy()?);
+        let ratio = if friction.damping { pair.get(&property::TANGENTIAL_DAMPING_RATIO)? } else { 0.0 };
+        let (modulus, energy) = (pair.effective_youngs_modulus()?, pair.get(&property::SURFACE_ENERGY)?);
         Ok([modulus, energy, tangential, viscoelastic, mass, plain, ratio])
     }
 }

@@ -1,7 +1,7 @@
 //! Rolling resistance of constant size.
 
 use crate::base::number::{Number, Vector};
-use crate::laws::contact::{Contact, MaterialPair, Missing, NoKeys, NormalForce, Rolling, coefficients};
+use crate::laws::contact::{Contact, MaterialPair, Missing, NoKeys, NormalForce, Rolling, coefficients, property};
 
 coefficients! {
     /// A torque of constant size against the relative spin (constant directional torque).
@@ -36,7 +36,7 @@ impl Rolling for Cdt {
     const TAKES_OVERLAP: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys) -> Result<Self, Missing> {
-        Ok(Self::new(pair.rolling_friction()?))
+        Ok(Self::new(pair.get(&property::ROLLING_FRICTION)?))
     }
 
     #[inline(always)]

@@ -4,6 +4,7 @@ use super::rocking::{self, Keys, Spring};
 use crate::base::number::{Number, Row, Vector};
 use crate::laws::contact::{
     Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingResponse, coefficients,
+    property,
 };
 
 coefficients! {
@@ -82,7 +83,13 @@ impl Rolling for Epsd {
 
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Self, Missing> {
         let [torsion, engine, set_up] = keys.numbers();
-        Ok(Self::new(pair.rolling_friction()?, pair.rolling_viscous_damping()?, torsion, engine, set_up))
+        Ok(Self::new(
+            pair.get(&property::ROLLING_FRICTION)?,
+            pair.get(&property::ROLLING_VISCOUS_DAMPING)?,
+            torsion,
+            engine,
+            set_up,
+        ))
     }
 
     fn response(&self, contact: &Contact, response: &Response) -> RollingResponse {

@@ -4,6 +4,7 @@ use super::rocking::{self, Keys, Spring};
 use crate::base::number::{Number, Row, Vector};
 use crate::laws::contact::{
     Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingResponse, coefficients,
+    property,
 };
 
 coefficients! {
@@ -55,7 +56,7 @@ impl Rolling for Epsd2 {
 
     fn between(pair: &MaterialPair, keys: &Keys) -> Result<Self, Missing> {
         let [torsion, engine, set_up] = keys.numbers();
-        Ok(Self::new(pair.rolling_friction()?, torsion, engine, set_up))
+        Ok(Self::new(pair.get(&property::ROLLING_FRICTION)?, torsion, engine, set_up))
     }
 
     fn response(&self, contact: &Contact, response: &Response) -> RollingResponse {

@@ -1,7 +1,9 @@
 //! Friction without memory.
 
 use crate::base::number::Number;
-use crate::laws::contact::{Contact, Friction, MaterialPair, Missing, NoKeys, NormalForce, Tangential, coefficients};
+use crate::laws::contact::{
+    Contact, Friction, MaterialPair, Missing, NoKeys, NormalForce, Tangential, coefficients, property,
+};
 
 coefficients! {
     /// A tangential dashpot up to Coulomb's limit.
@@ -35,7 +37,7 @@ impl Tangential for NoHistory {
     const LIMITS_DASHPOT: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, _damped_at_touch: bool) -> Result<Self, Missing> {
-        Ok(Self::new(pair.friction()?))
+        Ok(Self::new(pair.get(&property::FRICTION)?))
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use crate::base::number::{Number, Vector};
 use crate::laws::contact::{
-    Contact, Friction, HistoryRow, MaterialPair, Missing, NoKeys, NormalForce, Tangential, coefficients,
+    Contact, Friction, HistoryRow, MaterialPair, Missing, NoKeys, NormalForce, Tangential, coefficients, property,
 };
 
 coefficients! {
@@ -49,7 +49,7 @@ impl Tangential for Rescaled {
     const PROJECTS: bool = true;
 
     fn between(pair: &MaterialPair, _keys: &NoKeys, _damped_at_touch: bool) -> Result<Self, Missing> {
-        Ok(Self::new(pair.friction()?))
+        Ok(Self::new(pair.get(&property::FRICTION)?))
     }
 
     #[inline(always)]

@@ -2,7 +2,7 @@
 
 use crate::base::number::{Number, Vector};
 use crate::laws::contact::{
-    Contact, Friction, HistoryRow, MaterialPair, Missing, NormalForce, Tangential, coefficients,
+    Contact, Friction, HistoryRow, MaterialPair, Missing, NormalForce, Tangential, coefficients, property,
 };
 use serde::Deserialize;
 
@@ -82,9 +82,9 @@ impl Tangential for TurnedHistory {
     const LIMITS_DASHPOT: bool = true;
 
     fn between(pair: &MaterialPair, keys: &Keys, damped_at_touch: bool) -> Result<Self, Missing> {
-        let friction = pair.friction()?;
+        let friction = pair.get(&property::FRICTION)?;
         let number = |yes: bool| if yes { 1.0 } else { 0.0 };
-        let given = if keys.given_stiffness { pair.tangential_stiffness()? } else { 0.0 };
+        let given = if keys.given_stiffness { pair.get(&property::TANGENTIAL_STIFFNESS)? } else { 0.0 };
         let of_normal_model = number(!keys.given_stiffness);
         Ok(Self::new(
             friction,

@@ -216,6 +216,21 @@ impl Surface for Mesh {
         self.nearest_triangle(point)
     }
 
+    fn share_out(&self, feature: u32, _foot: Vector, give: &mut dyn FnMut(usize, f64)) {
+        let (topology, faces) = (&self.topology, self.face(0));
+        let vertices = topology.vertices.len() as u32;
+        if let Some(triangle) = feature.checked_sub(faces) {
+            give(triangle as usize, 1.0);
+        } else if let Some(edge) = feature.checked_sub(vertices) {
+            let there = &topology.at_edge[edge as usize];
+            there.iter().for_each(|triangle| give(*triangle as usize, 1.0 / there.len() as f64));
+        } else {
+            let there = &topology.at_vertex[feature as usize];
+            let whole: f64 = there.iter().map(|triangle| self.angle(*triangle, feature)).sum();
+            there.iter().for_each(|triangle| give(*triangle as usize, self.angle(*triangle, feature) / whole));
+        }
+    }
+
     fn crack(&self, within: f64) -> Option<String> {
         faults::crack(&self.topology, within)
     }

@@ -45,10 +45,10 @@ pub(super) fn boundaries(
         // What moves and turns by forces does so about its mass centre.
         let reference =
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
-        let (nodes, outside) = (boundary.nodes, boundary.outside);
+        let (nodes, outside, wear) = (boundary.nodes, boundary.outside, boundary.wear.clone());
         let temperature = heat::temperature(boundary, &table, (materials, born, columns), faults);
         let boundary =
-            Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside, temperature };
+            Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside, temperature, wear };
         alone(&boundary, faults);
         boundaries.push(boundary);
     }
@@ -88,6 +88,10 @@ fn alone(boundary: &Boundary, faults: &mut Faults) {
     if boundary.outside == Outside::Remove && !shape.members().is_empty() {
         let (found, expected) = ("\"remove\" at a group of particles", "a surface, or \"stop\"".to_owned());
         faults.add(&table, "outside", Mistake::Unexpected { found: found.to_owned(), expected });
+    }
+    if let Some(wear) = boundary.wear.first().filter(|_| shape.material().is_none()) {
+        let found = format!("{} of a group of particles", wear.name());
+        faults.add(&table, "wear", Mistake::Unexpected { found, expected: "wear of a surface".to_owned() });
     }
     body::lacks(boundary, &table, faults);
 }

@@ -5,7 +5,7 @@ use super::raw_tables::{Law, RawTables};
 use crate::base::document::Faults;
 use crate::base::document::Mistake;
 use crate::base::quantity::{MaterialIndex, Positive};
-use crate::laws::contact::{LawChoice, Material, PairProperties, Scheme, Switches, Thermal};
+use crate::laws::contact::{LawChoice, Material, Properties, Scheme, Switches, Thermal};
 use crate::scene::ContactLaw;
 use crate::scene::file::tables::MaterialPairs;
 
@@ -21,6 +21,7 @@ pub(super) fn materials(written: &RawTables) -> Vec<Material> {
             specific_heat: table.specific_heat.map(Positive::get),
             real_youngs_modulus: table.real_youngs_modulus.map(Positive::get),
         },
+        properties: table.properties.clone(),
     };
     written.materials.iter().map(material).collect()
 }
@@ -47,16 +48,16 @@ pub(super) fn unknown_material(materials: &[Material], name: &str) -> Mistake {
 }
 
 /// Properties of each two materials, a square.
-pub(super) fn pairs(written: &RawTables, materials: &[Material], faults: &mut Faults) -> Vec<PairProperties> {
+pub(super) fn pairs(written: &RawTables, materials: &[Material], faults: &mut Faults) -> Vec<Properties> {
     let count = materials.len();
-    let mut square = vec![PairProperties::default(); count * count];
+    let mut square = vec![Properties::default(); count * count];
     for ([a, b], properties) in &written.pairs {
         let table = format!("pair.{a}.{b}");
         let i = material_index(materials, a, &table, "", faults);
         let j = if a == b { i } else { material_index(materials, b, &table, "", faults) };
         if let (Some(i), Some(j)) = (i, j) {
-            square[i.index() * count + j.index()] = *properties;
-            square[j.index() * count + i.index()] = *properties;
+            square[i.index() * count + j.index()] = properties.clone();
+            square[j.index() * count + i.index()] = properties.clone();
         }
     }
     square

@@ -50,13 +50,14 @@ pub(super) fn parts(
 fn names(written: &RawTables, faults: &mut Faults) {
     let boundaries = written.boundaries.iter().map(|(name, _)| ("boundary", name));
     let regions = written.regions.iter().map(|(name, _)| ("region", name));
+    let grids = written.grids.iter().map(|(name, _)| ("grid", name));
     let insertions = written.insertions.iter().map(|(name, _)| ("insertion", name));
     let outlets = written.outlets.iter().map(|(name, _)| ("outlet", name));
     let meters = written.meters.iter().map(|(name, _)| ("flow_meter", name));
     let probes = written.probes.iter().map(|(name, _)| ("probe", name));
     let derived = written.derived.iter().map(|(name, _)| ("derived", name));
     let mut told: Vec<(&str, &String)> = boundaries.chain(regions).collect();
-    for (kind, name) in insertions.chain(outlets).chain(meters).chain(probes).chain(derived) {
+    for (kind, name) in grids.chain(insertions).chain(outlets).chain(meters).chain(probes).chain(derived) {
         if let Some((other, _)) = told.iter().find(|(_, known)| *known == name) {
             let (found, expected) = (format!("that of [{other}.{name}]"), "a name of its own".to_owned());
             faults.add(&format!("{kind}.{name}"), "", Mistake::Unexpected { found, expected });

@@ -11,11 +11,13 @@ mod contacts;
 mod damping;
 mod exchange;
 mod finding;
+mod fluid;
 mod heat;
 mod motion;
 mod named_tables;
 mod particles;
 mod place;
+mod properties;
 pub(super) mod raw_tables;
 mod selection;
 mod set_reader;
@@ -28,8 +30,10 @@ use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
 use crate::scene::packing::PackingProgress;
-use crate::scene::{Accuracy, Cell, Derived, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step};
-use crate::scene::{cell, clump, column};
+use crate::scene::{
+    Accuracy, Cell, Derived, Grid, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step,
+};
+use crate::scene::{cell, clump, column, grid};
 use finding::Finding;
 use particles::ReadParticles;
 use raw_tables::RawTables;
@@ -62,7 +66,9 @@ pub(super) fn scene(
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
     let heat_sources = heat::sources(&written, &born, &mut faults);
+    let fluid = fluid::fluid(&written, source, &mut faults);
     let regions = regions(&written, source, &mut faults);
+    let grids = written.grids.iter().map(|(name, keys)| Grid::of(name, keys)).collect();
     let exchange::Parts { insertions, outlets, meters } =
         exchange::parts(&written, (&regions, &boundaries), (&materials, &born.shapes), &mut faults);
     let (probes, derived) = looks(&written, &born.sets, &mut faults);
@@ -84,7 +90,9 @@ pub(super) fn scene(
         forces,
         heat: written.heat.settings(),
         heat_sources,
+        fluid,
         regions,
+        grids,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
         domain: written.domain.map(|domain| domain.corners.0),
         cell,
@@ -144,8 +152,9 @@ impl SceneDraft {
 /// Reports what the parts of a scene are not to each other.
 fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let repeated = cell::repeat_surfaces(draft);
-    // Losses that warm are found by the book of losses.
-    draft.output.losses |= draft.heat.warms();
+    grid::repeat(&mut draft.grids, draft.cell.as_ref());
+    // Losses that warm, and those of single impacts, are found by the book of losses.
+    draft.output.losses |= draft.heat.warms() || draft.output.impacts.is_some();
     let draft = &*draft;
     if let Some([found, expected]) = draft.stiffness_objection() {
         faults.add("output", "stiffness", Mistake::Unexpected { found, expected });
@@ -153,7 +162,11 @@ fn relations(draft: &mut SceneDraft, document: &Document, faults: &mut Faults) {
     let found =
         consistency::laws(draft).into_iter().chain(consistency::places(draft)).chain(exchange::objections(draft));
     let others = cell::objections(draft).into_iter().chain(repeated).chain(clump::objections(draft));
-    let others = others.chain(column::objections(draft)).chain(crate::scene::heat::objections(draft));
+    let others = others
+        .chain(column::objections(draft))
+        .chain(crate::scene::heat::objections(draft))
+        .chain(grid::objections(draft))
+        .chain(crate::scene::fluid::objections(draft));
     let others = others.map(|(table, key, mistake)| Finding::at(table, key, mistake));
     for finding in found.chain(others) {
         report(finding, document, faults);

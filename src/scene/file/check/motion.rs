@@ -13,7 +13,8 @@ const ALONG: f64 = 1e-9;
 
 /// What each axis does; an axis may be named once.
 pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Faults) -> [AxisMotion; 6] {
-    let (axes, twice) = motion.axes(|axis, keys| tables::read(keys, axis, source, table, faults));
+    let (axes, twice) =
+        motion.axes(|axis, keys| tables::read(keys, axis, source, (table, "motion.prescribed"), faults));
     if motion.drives_nothing_by_velocity() {
         let (what, expected) = ("by = \"velocity\", and no axis is driven".to_owned(), "leave by out".to_owned());
         faults.add(table, "motion", Mistake::InvalidCombination { what, expected });

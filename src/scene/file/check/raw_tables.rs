@@ -2,23 +2,27 @@
 
 use super::columns;
 use super::named_tables::{Named, all, names};
+use super::properties;
 use crate::base::document::Mistake;
 use crate::base::document::messages;
 use crate::base::document::{Document, Faults, Part};
 use crate::laws::bond::keys::{BreakageChoice, Keys};
 use crate::laws::column::Column;
 use crate::laws::contact::{
-    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, PairProperties, RollingModel, TangentialModel,
+    CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, Properties, Property, RollingModel, TangentialModel,
 };
+use crate::laws::drag::DragModel;
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
+use crate::laws::wear::WearModel;
 use crate::scene::cell::CellKeys;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
 use crate::scene::file::tables::{
-    BoundaryTable, ContactTable, DampingTable, DomainTable, ForceTable, HeatSourceTable, HeatTable, MaterialTable,
-    ParticlesTable, RunTable, TABLES, Triple,
+    BoundaryTable, ContactTable, DampingTable, DomainTable, FluidTable, ForceTable, HeatSourceTable, HeatTable,
+    MaterialTable, ParticlesTable, RunTable, TABLES, Triple,
 };
+use crate::scene::grid::GridKeys;
 use crate::scene::{About, AxisMotion, DRY, DerivedKeys, Models, Output, ProbeKeys, ROLLING_FREELY, SMOOTH};
 use std::collections::BTreeMap;
 
@@ -33,7 +37,7 @@ pub(in crate::scene::file) struct RawTables {
     /// `[material.<name>]`
     pub(super) materials: Named<MaterialTable>,
     /// `[pair.<a>.<b>]`
-    pub(super) pairs: Vec<([String; 2], PairProperties)>,
+    pub(super) pairs: Vec<([String; 2], Properties)>,
     /// `[contact.<name>]`
     pub(super) contacts: Named<Law>,
     /// `[bond.<name>]`
@@ -56,8 +60,12 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) heat: HeatTable,
     /// `[heat_source.<name>]`
     pub(super) heat_sources: Named<HeatSourceTable>,
+    /// `[fluid.<name>]`, with its drag law
+    pub(super) fluid: Option<(String, FluidTable, DragModel)>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
+    /// `[grid.<name>]`
+    pub(super) grids: Named<GridKeys>,
     /// `[insertion.<name>]`
     pub(super) insertions: Named<InsertionKeys>,
     /// `[outlet.<name>]`
@@ -115,14 +123,16 @@ pub(in crate::scene::file) fn files(document: &Document, models: &Models) -> Vec
             }
         }
     }
-    for name in document.names("boundary") {
-        let table = format!("boundary.{name}");
-        for axis in AxisMotion::WORDS {
-            // A rotation is a quoted key.
-            let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };
-            let law = format!("{table}.motion.prescribed.{quoted}.table");
-            if let Some(file) = document.text(&law).or_else(|| document.text(&format!("{law}.file"))) {
-                files.push((table.clone(), "motion.prescribed".to_owned(), file.to_owned()));
+    for (kind, key) in [("boundary", "motion.prescribed"), ("fluid", "velocity.prescribed")] {
+        for name in document.names(kind) {
+            let table = format!("{kind}.{name}");
+            for axis in AxisMotion::WORDS {
+                // A rotation is a quoted key.
+                let quoted = if axis.contains('.') { format!("\"{axis}\"") } else { axis.to_owned() };
+                let law = format!("{table}.{key}.{quoted}.table");
+                if let Some(file) = document.text(&law).or_else(|| document.text(&format!("{law}.file"))) {
+                    files.push((table.clone(), key.to_owned(), file.to_owned()));
+                }
             }
         }
     }
@@ -145,8 +155,8 @@ impl RawTables {
             faults.add("material", "", Mistake::Unexpected { found, expected });
             return None;
         }
-        let materials = all(document, "material", faults);
-        let pairs = pairs(document, faults);
+        let materials = properties::materials(document, &models.material_properties(), faults);
+        let pairs = pairs(document, &models.pair_properties(), faults);
         let contacts = laws(document, models, faults);
         let bonds = bonds(document, models, faults);
         let clumps = all(document, "clump", faults);
@@ -156,7 +166,9 @@ impl RawTables {
         let forces = all(document, "force", faults);
         let heat = document.read("heat", faults);
         let heat_sources = all(document, "heat_source", faults);
+        let fluid = fluid(document, models, faults);
         let regions = all(document, "region", faults);
+        let grids = all(document, "grid", faults);
         let insertions = columns::insertions(document, &models.columns, faults);
         let outlets = all(document, "outlet", faults);
         let meters = all(document, "flow_meter", faults);
@@ -187,7 +199,9 @@ impl RawTables {
             forces,
             heat,
             heat_sources,
+            fluid,
             regions,
+            grids,
             insertions,
             outlets,
             meters,
@@ -220,12 +234,14 @@ fn unknown_tables(document: &Document, faults: &mut Faults) {
 }
 
 /// All properties of pairs; both orders of one pair must say the same.
-fn pairs(document: &Document, faults: &mut Faults) -> Vec<([String; 2], PairProperties)> {
-    let mut pairs: Vec<([String; 2], PairProperties)> = Vec::new();
+fn pairs(document: &Document, keys: &[&'static Property], faults: &mut Faults) -> Vec<([String; 2], Properties)> {
+    let mut pairs: Vec<([String; 2], Properties)> = Vec::new();
     let mut known: BTreeMap<[String; 2], usize> = BTreeMap::new();
     for a in names(document, "pair", faults) {
         for b in names(document, &format!("pair.{a}"), faults) {
-            let Some(properties) = document.read(&format!("pair.{a}.{b}"), faults) else { continue };
+            let Some(properties) = properties::of_pair(document, &format!("pair.{a}.{b}"), keys, faults) else {
+                continue;
+            };
             let mirrored = [b.clone(), a.clone()];
             match known.get(&mirrored) {
                 Some(place) if pairs[*place].1 != properties => asymmetric(document, &a, &b, faults),
@@ -324,16 +340,78 @@ fn breakage(document: &Document, bond: &str, models: &Models, faults: &mut Fault
 
 /// All boundaries.
 fn boundaries(document: &Document, models: &Models, faults: &mut Faults) -> Named<BoundaryTable> {
-    let known: Vec<&str> = models.shapes.iter().map(|row| row.key).collect();
+    let known: Vec<&str> = models.shapes.iter().map(|row| row.key).chain(["wear"]).collect();
     let mut boundaries = Vec::new();
     for name in names(document, "boundary", faults) {
         let path = format!("boundary.{name}");
         let table: Option<BoundaryTable> = document.read_part(&path, "", Part::Except(&known), faults);
         let there = models.shapes.iter().filter(|row| document.has(&format!("{path}.{}", row.key)));
         let shapes = there.filter_map(|row| Some((*row, (row.read)(document, &path, faults)?))).collect();
-        boundaries.extend(table.map(|table| (name, BoundaryTable { shapes, ..table })));
+        let wear = wear(document, &path, models, faults);
+        boundaries.extend(table.map(|table| (name, BoundaryTable { shapes, wear, ..table })));
     }
     boundaries
+}
+
+/// The fluid, if there is one.
+fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<(String, FluidTable, DragModel)> {
+    let names = names(document, "fluid", faults);
+    if names.len() > 1 {
+        let (found, expected) =
+            (names.join(" and "), "one fluid: each fills all space, so two would overlap".to_owned());
+        faults.add(&format!("fluid.{}", names[1]), "", Mistake::Unexpected { found, expected });
+        return None;
+    }
+    let name = names.into_iter().next()?;
+    let path = format!("fluid.{name}");
+    let table = document.read(&path, faults);
+    let laws = format!("{path}.drag");
+    if !document.is_table(&laws) {
+        let expected = format!("a table [{laws}.<law>]");
+        let mistake = match document.has(&laws) {
+            true => Mistake::Unexpected { found: document.written(&laws).to_owned(), expected },
+            false => Mistake::Missing { expected },
+        };
+        faults.add(&path, "drag", mistake);
+        return None;
+    }
+    let chosen = document.names(&laws);
+    let [law] = &chosen[..] else {
+        let found = if chosen.is_empty() { "none".to_owned() } else { chosen.join(" and ") };
+        faults.add(&laws, "", Mistake::Unexpected { found, expected: "one drag law".to_owned() });
+        return None;
+    };
+    let Some(row) = models.drag.iter().find(|row| row.name() == law) else {
+        let known = models.drag_names().into_iter().map(str::to_owned).collect();
+        faults.add(&format!("{laws}.{law}"), "", Mistake::UnknownModel { found: law.clone(), kind: "drag", known });
+        return None;
+    };
+    let drag = row.read(document, &laws, faults)?;
+    Some((name, table?, drag))
+}
+
+/// The models of wear of a boundary.
+fn wear(document: &Document, boundary: &str, models: &Models, faults: &mut Faults) -> Vec<WearModel> {
+    let path = format!("{boundary}.wear");
+    if !document.has(&path) {
+        return Vec::new();
+    }
+    let names = if document.is_table(&path) { document.names(&path) } else { Vec::new() };
+    if names.is_empty() {
+        let found = if document.is_table(&path) { "no model" } else { document.written(&path) };
+        let expected = format!("a table [{path}.<model>]");
+        faults.add(boundary, "wear", Mistake::Unexpected { found: found.to_owned(), expected });
+    }
+    let read = |name: &String| {
+        let Some(row) = models.wear.iter().find(|row| row.name() == name) else {
+            let known = models.wear.iter().map(|row| row.name().to_owned()).collect();
+            let mistake = Mistake::UnknownModel { found: name.clone(), kind: "wear", known };
+            faults.add(&format!("{path}.{name}"), "", mistake);
+            return None;
+        };
+        row.read(document, &path, faults)
+    };
+    names.iter().filter_map(read).collect()
 }
 
 /// The sub-model of a kind, if the law names one.

@@ -1,4 +1,4 @@
-//! Tables of motions, from the files that boundaries name.
+//! Tables of motions, from the files that boundaries and fluids name.
 
 use crate::base::document::{Faults, Mistake, told_columns};
 use crate::laws::motion::{FileKeys, Table, TableKeys};
@@ -10,7 +10,7 @@ pub(super) fn read(
     TableKeys(keys): &TableKeys,
     axis: usize,
     source: &Source,
-    table: &str,
+    (table, key): (&str, &str),
     faults: &mut Faults,
 ) -> Option<Table> {
     // A file that could not be read is reported already.
@@ -24,7 +24,7 @@ pub(super) fn read(
         .map_err(|(line, found, expected)| {
             let line = line.map_or_else(String::new, |line| format!(", line {line}"));
             let message = format!("{}{line}: expected {expected}, found {found}", keys.file);
-            faults.add(table, "motion.prescribed", Mistake::Refused { message });
+            faults.add(table, key, Mistake::Refused { message });
         })
         .ok()
 }

@@ -3,10 +3,11 @@
 
 use super::named_tables::is_name;
 use crate::base::document::{Faults, Mistake};
-use crate::base::quantity::SetIndex;
+use crate::base::quantity::{Porosity, SetIndex};
 use crate::laws::bond::creation::ListedPairs;
+use crate::laws::contact::Properties;
 use crate::scene::file::tables::is_positive_definite;
-use crate::scene::{AxisMotion, Boundary, ColumnStart, Insertion, Outlet, OutletPlace, SceneDraft, Step};
+use crate::scene::{AxisMotion, Boundary, ColumnStart, Fluid, Grid, Insertion, Outlet, OutletPlace, SceneDraft, Step};
 use std::collections::BTreeSet;
 
 /// Reports every value that its key does not take.
@@ -23,6 +24,14 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
         body(boundary, draft, &mut at);
     }
     bonds(draft, &mut at);
+    for it in &draft.grids {
+        at.name = format!("grid.{}", it.name);
+        grid(it, &mut at);
+    }
+    if let Some(it) = &draft.fluid {
+        at.name = format!("fluid.{}", it.name);
+        fluid(it, &mut at);
+    }
     for insertion in &draft.insertions {
         at.name = format!("insertion.{}", insertion.name);
         comes(insertion, draft, &mut at);
@@ -34,6 +43,19 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     for region in &draft.regions {
         at.name = format!("region.{}", region.name);
         at.points("follows", region.follows.map_or(0, |it| it.index()), draft.boundaries.len().max(1));
+    }
+}
+
+/// `[grid.<name>]`
+fn grid(grid: &Grid, at: &mut Table) {
+    let [lower, upper] = grid.shape.corners;
+    at.finite("box", &[lower, upper].concat());
+    if let Some(axis) = (0..3).find(|&axis| lower[axis] >= upper[axis]) {
+        let found = format!("{:?} to {:?} along {}", lower[axis], upper[axis], ["x", "y", "z"][axis]);
+        at.wrong("box", found, "the lower corner before the upper one");
+    }
+    if grid.shape.counts.contains(&0) {
+        at.wrong("counts", format!("{:?}", grid.shape.counts), "at least one cell along each axis");
     }
 }
 
@@ -110,7 +132,7 @@ impl Table<'_, '_, '_> {
 /// Names are names, and each is there once in its kind.
 fn names(draft: &SceneDraft, at: &mut Table) {
     let materials: Vec<&str> = draft.materials.iter().map(|it| &*it.name).collect();
-    let kinds: [(&str, Vec<&str>); 12] = [
+    let kinds: [(&str, Vec<&str>); 13] = [
         ("material", materials),
         ("contact", draft.contacts.iter().map(|it| &*it.name).collect()),
         ("bond", draft.bonds.iter().map(|it| &*it.name).collect()),
@@ -119,6 +141,7 @@ fn names(draft: &SceneDraft, at: &mut Table) {
         ("damping", draft.damping.iter().map(|it| &*it.name).collect()),
         ("force", draft.forces.iter().map(|it| &*it.name).collect()),
         ("region", draft.regions.iter().map(|it| &*it.name).collect()),
+        ("grid", draft.grids.iter().map(|it| &*it.name).collect()),
         ("insertion", draft.insertions.iter().map(|it| &*it.name).collect()),
         ("outlet", draft.outlets.iter().map(|it| &*it.name).collect()),
         ("probe", draft.probes.iter().map(|it| &*it.name).collect()),
@@ -135,6 +158,16 @@ fn names(draft: &SceneDraft, at: &mut Table) {
             }
         }
     }
+}
+
+/// `[fluid.<name>]`
+fn fluid(fluid: &Fluid, at: &mut Table) {
+    at.positive("density", fluid.density);
+    at.positive("viscosity", fluid.viscosity);
+    if let Some(porosity) = fluid.porosity.filter(|it| Porosity::new(*it).is_none()) {
+        at.wrong("porosity", format!("{porosity:?}"), "a number above 0 and at most 1");
+    }
+    at.finite("velocity", &fluid.velocity.at_start());
 }
 
 /// `[run]`, `gravity` and `[domain]`
@@ -182,6 +215,16 @@ fn run(draft: &SceneDraft, at: &mut Table) {
     }
 }
 
+/// Properties that laws declare.
+fn properties(given: &Properties, at: &mut Table) {
+    for (property, value) in given.iter() {
+        if let Err(message) = property.range.check(value) {
+            let expected = message.trim_start_matches("expected ").split(", found").next().unwrap_or_default();
+            at.wrong(property.name, format!("{value:?}"), expected);
+        }
+    }
+}
+
 /// `[material.<name>]`, `[pair.<a>.<b>]` and which of them the contact laws are for.
 fn materials(draft: &SceneDraft, at: &mut Table) {
     for material in &draft.materials {
@@ -191,10 +234,12 @@ fn materials(draft: &SceneDraft, at: &mut Table) {
         if let Some(ratio) = material.poissons_ratio.filter(|ratio| !(0.0..=0.5).contains(ratio)) {
             at.wrong("poissons_ratio", format!("{ratio:?}"), "a number from 0 to 0.5");
         }
+        properties(&material.properties, at);
     }
     let count = draft.materials.len();
     at.name = "pair".to_owned();
     at.length("", draft.pairs.len(), count * count);
+    draft.pairs.iter().for_each(|pair| properties(pair, at));
     if draft.pairs.len() == count * count {
         at.mirrored("", count, |one, other| draft.pairs[one] == draft.pairs[other]);
     }

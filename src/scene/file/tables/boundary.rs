@@ -5,6 +5,7 @@ use super::heat::TemperatureKey;
 use crate::base::quantity::{Finite, Positive, Triple};
 use crate::laws::motion::{self, InputCourse, NodeMotion};
 use crate::laws::surface::{MakeShape, ShapeRow};
+use crate::laws::wear::WearModel;
 use crate::scene::exchange::Outside;
 use serde::Deserialize;
 
@@ -15,6 +16,9 @@ pub(in crate::scene::file) struct BoundaryTable {
     /// Its shapes, each read by its row: one, where the scene is right.
     #[serde(skip)]
     pub(in crate::scene::file) shapes: Vec<(&'static ShapeRow, MakeShape)>,
+    /// What wears it, each read by its row.
+    #[serde(skip)]
+    pub(in crate::scene::file) wear: Vec<WearModel>,
     /// Material of a surface.
     pub(in crate::scene::file) material: Option<String>,
     /// How it moves.

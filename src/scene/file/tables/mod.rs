@@ -2,6 +2,7 @@
 
 mod body;
 mod boundary;
+mod fluid;
 mod heat;
 mod particles;
 mod values;
@@ -11,12 +12,13 @@ pub(super) use crate::laws::surface::Selection;
 pub(in crate::scene) use body::Inertia;
 pub(super) use body::{Supports, is_positive_definite};
 pub(super) use boundary::BoundaryTable;
+pub(super) use fluid::{FluidTable, VelocityKey};
 pub(super) use heat::{HeatSourceTable, HeatTable, TemperatureKey};
 pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
 
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
-use crate::laws::contact::Scheme;
+use crate::laws::contact::{Properties, Scheme};
 use crate::scene::exchange::Outside;
 use crate::scene::{Accuracy, MotionPlane, ParticleShape};
 use serde::Deserialize;
@@ -25,7 +27,7 @@ use std::collections::BTreeMap;
 use std::num::NonZeroU32;
 
 /// The tables that a scene may have.
-pub(in crate::scene::file) const TABLES: [&str; 23] = [
+pub(in crate::scene::file) const TABLES: [&str; 25] = [
     "about",
     "run",
     "gravity",
@@ -40,7 +42,9 @@ pub(in crate::scene::file) const TABLES: [&str; 23] = [
     "force",
     "heat",
     "heat_source",
+    "fluid",
     "region",
+    "grid",
     "insertion",
     "outlet",
     "flow_meter",
@@ -107,6 +111,9 @@ pub(in crate::scene::file) struct MaterialTable {
     pub(in crate::scene::file) specific_heat: Option<Positive>,
     /// Young's modulus of the real bodies \[Pa\].
     pub(in crate::scene::file) real_youngs_modulus: Option<Positive>,
+    /// Properties that laws declare.
+    #[serde(skip)]
+    pub(in crate::scene::file) properties: Properties,
 }
 
 /// `[contact.<name>]`, without its sub-models.

@@ -4,6 +4,7 @@ use super::together::Together;
 use crate::base::number::Vector;
 use crate::engine::contacts::surfaces::history::{CurrentContacts, PreviousContacts};
 use crate::engine::contacts::surfaces::nodes::Held;
+use crate::engine::contacts::surfaces::traces::TraceRoom;
 use crate::engine::state::contacts::{SLIDING, TOUCHING};
 use crate::engine::state::{History, Row, WallContacts};
 use crate::laws::surface::{Feet, Foot, Saddle};
@@ -40,6 +41,8 @@ pub(in crate::engine::contacts::surfaces) struct FeatureContacts {
     pub(super) held: Held,
     /// What the present particle touches.
     pub(super) feet: Feet,
+    /// What contacts leave behind, where they are followed: also those of a plane.
+    pub(super) traces: TraceRoom,
     /// Room for particles over planes, where there were any.
     pub(super) together: Option<Box<Together>>,
 }
@@ -117,6 +120,16 @@ impl FeatureContacts {
             _ => [0; 2],
         };
         CurrentContacts { features: &self.feature[contacts], saddles: &saddles[from..to] }
+    }
+
+    /// What contacts leave behind.
+    pub(in crate::engine::contacts::surfaces) fn traces(&self) -> &TraceRoom {
+        &self.traces
+    }
+
+    /// The same, to be filled.
+    pub(in crate::engine::contacts::surfaces) fn traces_mut(&mut self) -> &mut TraceRoom {
+        &mut self.traces
     }
 
     /// What the contacts have beside where nodes move one by one.

@@ -15,6 +15,7 @@ mod told;
 use super::history::{CurrentContacts, PreviousContacts, source, taken};
 use super::nodes::Held;
 use super::sphere::{Load, ParticleLoads};
+use super::traces::TouchedFeatures;
 use super::{AtSurface, Range, Work};
 use crate::base::lanes::Width;
 use crate::base::number::Vector;
@@ -25,7 +26,8 @@ use crate::laws::surface::{Feet, Foot, NO_PLANE, Saddle, TOGETHER};
 use at_feet::AtFeet;
 use columns::finish;
 pub(super) use columns::{ColumnBuffer, FeatureContacts, replace};
-use standing::{MovingSurface, SphereOnSurface};
+pub(super) use standing::MovingSurface;
+use standing::SphereOnSurface;
 
 /// The parts that are near a listed particle.
 fn parts(list: &WallContacts, place: usize) -> &[u32] {
@@ -67,7 +69,7 @@ impl AtSurface {
             self.remember(&at, &past, contacts);
         }
         let behind = self.came_through(&at, work, slots, contacts);
-        let FeatureContacts { particle, number, foot, weight, pair_constant, held, .. } = contacts;
+        let FeatureContacts { particle, feature, number, foot, weight, pair_constant, held, traces, .. } = contacts;
         let (count, particles) = (particle.len(), work.particles);
         let entries = match contacts.kept {
             Some(_) => entries.from(0, pair_constant),
@@ -80,7 +82,11 @@ impl AtSurface {
         let held = at.moving.map(|_| held.columns());
         let (material, share_of_heat, level) = (self.material, self.share_of_heat, work.level(list.boundary));
         let bodies = AtFeet { at, particle, number, foot, weight, held, material, share_of_heat, level, particles };
-        let load = self.run(&self.batches(bodies, entries, work), 0..count);
+        let load = self.run(&self.batches(bodies, entries, work), 0..count, traces);
+        if self.follower.is_some() {
+            let touched = TouchedFeatures { at: &at, particle, feature, foot, weight, particles };
+            self.trace_features(&touched, (&past, entries), work.context.step, traces);
+        }
         // SAFETY: as above.
         finish(unsafe { entries.flags.part(0, count) }, weight);
         Load { behind, ..load }

@@ -11,12 +11,12 @@ use crate::engine::contacts::surfaces::{AtSurface, Touched};
 use crate::engine::state::heat::BoundaryHeat;
 use crate::engine::state::{BoundaryState, Nodes, Row};
 use crate::laws::contact::{Contact, Law, MOST_HISTORY};
-use crate::laws::surface::{Features, Feet, Foot};
+use crate::laws::surface::{Features, Feet, Foot, Surface};
 use std::sync::PoisonError;
 
 /// A surface where it stands, as it moves.
 #[derive(Clone, Copy)]
-pub(super) struct MovingSurface<'a> {
+pub(in crate::engine::contacts::surfaces) struct MovingSurface<'a> {
     /// Its features, in its own axes.
     pub(super) features: &'a dyn Features,
     /// Where these axes are.
@@ -69,6 +69,16 @@ impl Mobility {
 }
 
 impl<'a> MovingSurface<'a> {
+    /// Where its axes are.
+    pub(in crate::engine::contacts::surfaces) fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// The mesh as its nodes stand, where they move one by one.
+    pub(in crate::engine::contacts::surfaces) fn deformed(&self) -> Option<&'a dyn Surface> {
+        self.moving.map(|moving| moving.shape.surface())
+    }
+
     /// The same before its velocity and its angular velocity grew by this much.
     pub(super) fn before(self, kick: Vector, twist: Vector) -> Self {
         let spin = self.spin - twist;

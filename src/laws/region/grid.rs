@@ -1,0 +1,189 @@
+//! A box that is divided evenly into cells.
+
+use super::cuboid::Cuboid;
+use super::sphere::{beyond, in_box};
+use crate::base::number::Vector;
+
+/// Corners of cells of which what is beyond them is kept without asking for memory: a sphere over four cells along each axis.
+const FEW: usize = 125;
+
+/// Cells with their weights: never below 0, 1 in sum. A cell may stand there more than once.
+pub type Weights = [(usize, f64); 8];
+
+/// A box that is divided evenly into cells, which are counted along x first, then y, then z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Lower and upper corner \[m\].
+    pub corners: [[f64; 3]; 2],
+    /// How many cells stand along each axis.
+    pub counts: [u32; 3],
+    /// Whether space repeats from the upper face to the lower one, along each axis: the last cell then has the first as its neighbour.
+    pub repeats: [bool; 3],
+}
+
+impl Grid {
+    /// How many cells it has.
+    pub fn cells(&self) -> usize {
+        self.counts.iter().map(|&count| count as usize).product()
+    }
+
+    /// Whether each face between cells lies above the one before it, which rounding may hide of very many cells.
+    pub fn is_divided(&self) -> bool {
+        (0..3)
+            .all(|axis| (0..self.counts[axis] as usize).all(|cell| self.plane(axis, cell) < self.plane(axis, cell + 1)))
+    }
+
+    /// Edges of a cell \[m\].
+    pub fn edges(&self) -> [f64; 3] {
+        let [lower, upper] = self.corners;
+        [0, 1, 2].map(|axis| (upper[axis] - lower[axis]) / f64::from(self.counts[axis]))
+    }
+
+    /// Volume of a cell \[m³\].
+    pub fn cell_volume(&self) -> f64 {
+        self.edges().into_iter().product()
+    }
+
+    /// Centre of a cell \[m\].
+    pub fn centre(&self, cell: usize) -> [f64; 3] {
+        let [lower, upper] = self.box_of(self.place(cell)).corners;
+        [0, 1, 2].map(|axis| lower[axis] + 0.5 * (upper[axis] - lower[axis]))
+    }
+
+    /// The cell that a point is in. The lower faces of a cell are in it, the upper ones are not.
+    pub fn cell_of(&self, point: Vector) -> Option<usize> {
+        let point = point.to_array();
+        Cuboid { corners: self.corners }
+            .holds(point.into())
+            .then(|| self.number([0, 1, 2].map(|axis| self.along(axis, point[axis]))))
+    }
+
+    /// Hands out each cell that has a part of a sphere, with the volume of the part \[m³\]. In sum the parts are the part of the sphere in
+    /// the box, to rounding of the sphere's volume.
+    pub fn parts_of_sphere(&self, centre: Vector, radius: f64, mut hand: impl FnMut(usize, f64)) {
+        let centre = centre.to_array();
+        let Some([low, high]) = self.met([0, 1, 2].map(|axis| [centre[axis] - radius, centre[axis] + radius])) else {
+            return;
+        };
+        let plane = |axis: usize, number: usize| (self.plane(axis, number) - centre[axis]) / radius;
+        let width = [0, 1, 2].map(|axis| high[axis] - low[axis] + 2);
+        // What is beyond a corner serves the eight cells around it.
+        let (count, mut few, mut many) = (width.iter().product(), [0.0; FEW], Vec::new());
+        let beyond_of = if count > FEW {
+            many.resize(count, 0.0);
+            &mut many[..]
+        } else {
+            &mut few[..count]
+        };
+        let place = |[i, j, k]: [usize; 3]| ((k - low[2]) * width[1] + j - low[1]) * width[0] + i - low[0];
+        each_of([low, high.map(|last| last + 1)], |corner| {
+            beyond_of[place(corner)] = beyond([0, 1, 2].map(|axis| plane(axis, corner[axis])));
+        });
+        each_of([low, high], |cell| {
+            let upper = cell.map(|along| along + 1);
+            let corners = [cell, upper].map(|corner| [0, 1, 2].map(|axis| plane(axis, corner[axis])));
+            let of_corner = |number: usize| beyond_of[place([0, 1, 2].map(|axis| cell[axis] + (number >> axis & 1)))];
+            let part = in_box(corners, (radius, self.box_of(cell).volume()), of_corner);
+            if part > 0.0 {
+                hand(self.number(cell), part);
+            }
+        });
+    }
+
+    /// Hands out each cell that has a part of the line between two points \[m\], with the part over the length of the line.
+    pub fn parts_of_line(&self, from: Vector, to: Vector, mut hand: impl FnMut(usize, f64)) {
+        let ends = [from.to_array(), to.to_array()];
+        let Some(cells) = self.met([0, 1, 2].map(|axis| {
+            let [one, other] = ends.map(|end| end[axis]);
+            [one.min(other), one.max(other)]
+        })) else {
+            return;
+        };
+        each_of(cells, |cell| {
+            let share = self.box_of(cell).share_of_line(from, to);
+            if share > 0.0 {
+                hand(self.number(cell), share);
+            }
+        });
+    }
+
+    /// The cells between whose centres a point \[m\] lies, with weights linear along each axis. Fields that are linear in space come out
+    /// as they are between the outermost centres. Beyond these the value of the outermost cell holds, or, where space repeats, that
+    /// between the last cell and the first.
+    pub fn weights(&self, point: Vector) -> Weights {
+        let (point, edges) = (point.to_array(), self.edges());
+        let between = [0, 1, 2].map(|axis| {
+            let count = self.counts[axis] as usize;
+            let place = (point[axis] - self.corners[0][axis]) / edges[axis] - 0.5;
+            if self.repeats[axis] {
+                let (whole, all) = (place.floor(), count as f64);
+                let first = (whole - all * (whole / all).floor()) as usize % count;
+                return ([first, (first + 1) % count], place - whole);
+            }
+            let place = place.clamp(0.0, (count - 1) as f64);
+            let first = (place as usize).min(count.saturating_sub(2));
+            ([first, (first + 1).min(count - 1)], place - first as f64)
+        });
+        [0, 1, 2, 3, 4, 5, 6, 7].map(|number: usize| {
+            let upper = [0, 1, 2].map(|axis| number >> axis & 1);
+            let cell = self.number([0, 1, 2].map(|axis| between[axis].0[upper[axis]]));
+            let weight = |axis: usize| if upper[axis] == 1 { between[axis].1 } else { 1.0 - between[axis].1 };
+            (cell, weight(0) * weight(1) * weight(2))
+        })
+    }
+
+    /// Number of the cell at a place along each axis.
+    fn number(&self, [i, j, k]: [usize; 3]) -> usize {
+        (k * self.counts[1] as usize + j) * self.counts[0] as usize + i
+    }
+
+    /// Place of a cell along each axis.
+    pub(super) fn place(&self, cell: usize) -> [usize; 3] {
+        let [nx, ny, _] = self.counts.map(|count| count as usize);
+        [cell % nx, cell / nx % ny, cell / (nx * ny)]
+    }
+
+    /// The box of a cell.
+    pub(super) fn box_of(&self, cell: [usize; 3]) -> Cuboid {
+        let corner = |upper: usize| [0, 1, 2].map(|axis| self.plane(axis, cell[axis] + upper));
+        Cuboid { corners: [corner(0), corner(1)] }
+    }
+
+    /// Where a plane between cells is along an axis, from 0 \[m\].
+    fn plane(&self, axis: usize, number: usize) -> f64 {
+        let ([lower, upper], count) = (self.corners.map(|corner| corner[axis]), self.counts[axis] as usize);
+        if number == count { upper } else { lower + (upper - lower) * (number as f64 / count as f64) }
+    }
+
+    /// The cell along an axis that a place is in; for one outside the outermost cell.
+    fn along(&self, axis: usize, at: f64) -> usize {
+        let last = self.counts[axis] as usize - 1;
+        let mut cell = (((at - self.corners[0][axis]) / self.edges()[axis]) as usize).min(last);
+        // The quotient may be rounded across a plane.
+        while cell > 0 && self.plane(axis, cell) > at {
+            cell -= 1;
+        }
+        while cell < last && self.plane(axis, cell + 1) <= at {
+            cell += 1;
+        }
+        cell
+    }
+
+    /// The first and the last cell along each axis that meet what reaches from here to there; none where it is outside.
+    fn met(&self, extent: [[f64; 2]; 3]) -> Option<[[usize; 3]; 2]> {
+        let [lower, upper] = self.corners;
+        let outside = |axis: usize| extent[axis][1] < lower[axis] || extent[axis][0] > upper[axis];
+        (!(0..3).any(outside)).then(|| [0, 1].map(|end| [0, 1, 2].map(|axis| self.along(axis, extent[axis][end]))))
+    }
+}
+
+/// Hands out the places from the first to the last along each axis, along x first.
+fn each_of([first, last]: [[usize; 3]; 2], mut hand: impl FnMut([usize; 3])) {
+    for k in first[2]..=last[2] {
+        for j in first[1]..=last[1] {
+            for i in first[0]..=last[0] {
+                hand([i, j, k]);
+            }
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! A fluid, as the scene writes it.
+
+use crate::base::quantity::{Porosity, Positive, Triple};
+use crate::laws::motion::{Axis, PrescribedMotion};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// `[fluid.<name>]`, without its drag law.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(in crate::scene::file) struct FluidTable {
+    /// Density \[kg/m³\].
+    pub(in crate::scene::file) density: Positive,
+    /// Dynamic viscosity \[Pa s\].
+    pub(in crate::scene::file) viscosity: Positive,
+    /// Velocity between the particles; absent: none.
+    pub(in crate::scene::file) velocity: Option<VelocityKey>,
+    /// Part of the space that the particles leave to it.
+    pub(in crate::scene::file) porosity: Option<Porosity>,
+    /// Whether it brakes the rotation of the particles.
+    #[serde(default)]
+    pub(in crate::scene::file) torque: bool,
+    /// Answered: no pressure gradient is given.
+    pub(in crate::scene::file) pressure: Option<IgnoredAny>,
+    /// Answered: not modelled.
+    pub(in crate::scene::file) lift: Option<IgnoredAny>,
+    /// Answered: not modelled.
+    pub(in crate::scene::file) added_mass: Option<IgnoredAny>,
+    /// Read on its own.
+    #[serde(rename = "drag")]
+    _drag: Option<IgnoredAny>,
+}
+
+/// `velocity` of a fluid.
+#[derive(Clone, Debug)]
+pub(in crate::scene::file) enum VelocityKey {
+    /// A vector \[m/s\].
+    Given(Triple),
+    /// `"driven"`: from rest on.
+    Driven,
+    /// `{ driven = [0.1, 0.0, 0.0] }`: from this one on \[m/s\].
+    DrivenFrom(Triple),
+    /// `{ prescribed = { x = .. } }`: that of motions.
+    Prescribed(BTreeMap<Axis, PrescribedMotion>),
+}
+
+/// What may stand in the braces.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Braces {
+    /// The velocity at the start follows \[m/s\].
+    Driven,
+    /// Motions of axes follow.
+    Prescribed,
+}
+
+impl<'de> Deserialize<'de> for VelocityKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        /// Takes a vector, a word or a table.
+        struct Written;
+        /// What is expected.
+        const EXPECTED: &str = "[x, y, z] [m/s], \"driven\", { driven = [x, y, z] } with that at the start, or { prescribed = { x = .. } }";
+        impl<'de> Visitor<'de> for Written {
+            type Value = VelocityKey;
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str(EXPECTED)
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<VelocityKey, A::Error> {
+                Triple::deserialize(SeqAccessDeserializer::new(list)).map(VelocityKey::Given)
+            }
+            fn visit_str<E: Error>(self, word: &str) -> Result<VelocityKey, E> {
+                match word {
+                    "driven" => Ok(VelocityKey::Driven),
+                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
+                }
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<VelocityKey, A::Error> {
+                let Some(kind) = map.next_key()? else {
+                    return Err(A::Error::custom(format!("expected {EXPECTED}, found an empty table")));
+                };
+                let velocity = match kind {
+                    Braces::Driven => VelocityKey::DrivenFrom(map.next_value()?),
+                    Braces::Prescribed => VelocityKey::Prescribed(map.next_value()?),
+                };
+                match map.next_key::<String>()? {
+                    None => Ok(velocity),
+                    Some(more) => Err(A::Error::custom(format!("expected one of the two, found {more} beside it"))),
+                }
+            }
+        }
+        deserializer.deserialize_any(Written)
+    }
+}

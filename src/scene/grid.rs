@@ -1,0 +1,156 @@
+//! Grids: boxes divided into cells, each of which is looked at.
+
+use crate::base::document::Mistake;
+use crate::base::quantity::{Corners, Counts};
+use crate::laws::region;
+use crate::scene::{Cell, SceneDraft};
+use serde::Deserialize;
+
+/// Numbers of cells that a grid may have outputs for, all outputs counted: each is a variable of the unit.
+const MOST_NUMBERS: u64 = 500_000;
+
+/// `[grid.<name>]`: a box divided evenly into cells.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// Its name in the scene and in the unit's variables.
+    pub name: String,
+    /// Where it stands.
+    pub shape: region::Grid,
+    /// What is told of each cell, each once.
+    pub outputs: Vec<GridOutput>,
+}
+
+/// What may be told of each cell of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum GridOutput {
+    /// The part of the cell that no particle fills.
+    Porosity,
+    /// Mass over the volume of the cell.
+    Density,
+    /// Mean velocity of the mass.
+    Velocity,
+    /// Of contacts, bonds and velocities less their mean.
+    Stress,
+    /// A third of the mean square of the velocity less the mean velocity.
+    GranularTemperature,
+    /// Mean temperature by heat capacity.
+    Temperature,
+    /// Particles whose centre is inside.
+    Count,
+    /// Those of each set.
+    CountBySet,
+}
+
+/// `[grid.<name>]` as a scene writes it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GridKeys {
+    /// Corners of the box \[m\].
+    #[serde(rename = "box")]
+    corners: Corners,
+    /// Cells along each axis.
+    counts: Counts,
+    /// What is told of each cell; the porosity where nothing is said.
+    outputs: Option<Vec<GridOutput>>,
+}
+
+impl Grid {
+    /// The grid that is written so.
+    pub(crate) fn of(name: &str, keys: &GridKeys) -> Self {
+        let (Corners(corners), Counts(counts)) = (keys.corners, keys.counts);
+        let shape = region::Grid { corners, counts, repeats: [false; 3] };
+        let outputs = keys.outputs.clone().unwrap_or_else(|| vec![GridOutput::Porosity]);
+        Self { name: name.to_owned(), shape, outputs }
+    }
+
+    /// Whether this is told of each cell.
+    pub fn tells(&self, output: GridOutput) -> bool {
+        self.outputs.contains(&output)
+    }
+
+    /// What cannot be of it, in a scene with so many sets, with or without heat: the key, what was found and what is expected.
+    pub(crate) fn objections(&self, sets: usize, has_heat: bool) -> Vec<(&'static str, Mistake)> {
+        let refused = |key, found: String, expected: String| (key, Mistake::Unexpected { found, expected });
+        let mut found = Vec::new();
+        let cells: u64 = self.shape.counts.iter().fold(1, |all, &count| all.saturating_mul(u64::from(count)));
+        let each: u64 = self.outputs.iter().map(|output| output.numbers(sets)).sum::<u64>().max(1);
+        if cells.saturating_mul(each) > MOST_NUMBERS {
+            let [nx, ny, nz] = self.shape.counts;
+            let what = if each == 1 { "one number".to_owned() } else { format!("{each} numbers") };
+            let expected = format!("cells with at most {MOST_NUMBERS} numbers in sum");
+            found.push(refused("counts", format!("{nx} × {ny} × {nz} cells of {what}"), expected));
+        } else if !self.shape.cell_volume().is_normal() {
+            let expected = "cells of a volume that 64 bits hold".to_owned();
+            found.push(refused("box", format!("cells of {:?} m³", self.shape.cell_volume()), expected));
+        } else if !self.shape.is_divided() {
+            let expected = "cells whose faces 64 bits tell apart".to_owned();
+            found.push(refused("counts", "more cells than there are numbers between the faces".to_owned(), expected));
+        }
+        let twice = |place: usize| self.outputs[..place].contains(&self.outputs[place]);
+        if let Some(place) = (0..self.outputs.len()).find(|place| twice(*place)) {
+            let found_twice = format!("{:?} twice", self.outputs[place].name());
+            found.push(refused("outputs", found_twice, "each output once".to_owned()));
+        }
+        if self.tells(GridOutput::Temperature) && !has_heat {
+            let expected = "a contact law with [contact.<law>.heat] beside it".to_owned();
+            found.push(refused("outputs", "\"temperature\" in a scene where no heat flows".to_owned(), expected));
+        }
+        found
+    }
+}
+
+impl GridOutput {
+    /// Its name in a scene.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Porosity => "porosity",
+            Self::Density => "density",
+            Self::Velocity => "velocity",
+            Self::Stress => "stress",
+            Self::GranularTemperature => "granular_temperature",
+            Self::Temperature => "temperature",
+            Self::Count => "count",
+            Self::CountBySet => "count_by_set",
+        }
+    }
+
+    /// How many numbers it has for a cell, in a scene with so many sets.
+    fn numbers(self, sets: usize) -> u64 {
+        match self {
+            Self::Velocity => 3,
+            Self::Stress => 6,
+            Self::CountBySet => sets as u64,
+            Self::Porosity | Self::Density | Self::GranularTemperature | Self::Temperature | Self::Count => 1,
+        }
+    }
+}
+
+/// Lets grids that reach through a periodic cell from face to face go on beyond its faces.
+pub(crate) fn repeat(grids: &mut [Grid], cell: Option<&Cell>) {
+    let Some(lattice) = cell.map(|cell| cell.lattice) else { return };
+    for grid in grids {
+        let [lower, upper] = grid.shape.corners;
+        let repeats = |axis: usize| {
+            let edge = lattice.edges[axis];
+            let (length, near) = (edge[axis], |one: f64, other: f64| (one - other).abs() <= 1e-9 * edge[axis]);
+            let alone = (0..3).all(|other| other == axis || edge[other] == 0.0);
+            lattice.periodic[axis]
+                && alone
+                && near(lower[axis], lattice.origin[axis])
+                && near(upper[axis] - lower[axis], length)
+        };
+        grid.shape.repeats = [0, 1, 2].map(repeats);
+    }
+}
+
+/// What cannot be of the grids of a scene: table, key and mistake.
+pub(crate) fn objections(scene: &SceneDraft) -> Vec<(String, &'static str, Mistake)> {
+    let of = |grid: &Grid| {
+        let table = format!("grid.{}", grid.name);
+        grid.objections(scene.sets.len(), scene.has_heat())
+            .into_iter()
+            .map(move |(key, mistake)| (table.clone(), key, mistake))
+    };
+    scene.grids.iter().flat_map(of).collect()
+}
