@@ -77,7 +77,7 @@ fn cells_have_in_sum_what_all_has() {
         let (all, cells) = (averages::contents(&simulation)[0], averages::contents_of_cells(&simulation, 0));
         let sum = |of: &dyn Fn(&Content) -> f64| cells.iter().map(of).sum::<f64>();
         let near = |found: f64, expected: f64, scale: f64| {
-            assert!((found - expected).abs() < 1e-13 * scale, "{found:?} {expected:?}")
+            assert!((found - expected).abs() < 1e-13 * scale, "{found:?} {expected:?}");
         };
         near(sum(&|cell| cell.mass), all.mass, all.mass);
         near(sum(&|cell| cell.solid), all.solid, all.solid);
