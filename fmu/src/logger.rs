@@ -123,7 +123,7 @@ impl Logger {
             }
             // SAFETY: as above.
             Host::Fmi3 { logger: Some(logger), environment } => unsafe {
-                logger(*environment, status, category, message)
+                logger(*environment, status, category, message);
             },
             Host::Fmi2 { .. } | Host::Fmi3 { .. } => {}
         }

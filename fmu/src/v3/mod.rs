@@ -1,4 +1,4 @@
-//! The functions of FMI 3.0 for co-simulation. Each is a few lines around [`guard::call`](crate::guard::call), as those of FMI 2.0.
+//! The functions of FMI 3.0 for co-simulation. Each is a few lines around [`guard::call`], as those of FMI 2.0.
 //!
 //! # Safety
 //!

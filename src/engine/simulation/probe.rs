@@ -106,7 +106,7 @@ impl Probe {
         let mut all = Vec::new();
         for pass in &self.simulation.passes {
             pass.stiffness(&self.rest, &SearchLimits::default(), &Context::ALONE, &mut |link: Link| {
-                all.push((link.first, link.second))
+                all.push((link.first, link.second));
             });
         }
         all
