@@ -22,22 +22,22 @@ import numpy as np
 
 from cograin.extras import needed
 from cograin.plot.command import numbered
-from cograin.plot.values import FIELDS, are_kinds, colouring, contact_lines, ends, joined, magnitude, values
+from cograin.plot.values import (
+    FACET_FIELDS,
+    FIELDS,
+    are_kinds,
+    colouring,
+    contact_lines,
+    ends,
+    joined,
+    magnitude,
+    values,
+)
 from cograin.plot.values import scale as scale_of
 from cograin.results import Cloud, Frame, ResultError, Run
 
 #: Directions from which a picture may be seen.
 DIRECTIONS = ("x", "y", "z", "isometric")
-#: Units of the fields of facets.
-FACETS = {
-    "normal_pressure": "Pa",
-    "traction": "Pa",
-    "force": "N",
-    "wear": "m3",
-    "wear_depth": "m",
-    "impact_energy_normal": "J",
-    "impact_energy_tangential": "J",
-}
 #: Up to so many particles are drawn as fine spheres.
 FINE = 2000
 
@@ -139,7 +139,7 @@ def _surfaces(pyvista: Any, plotter: Any, frame: Frame, by: str | None) -> None:
         if by not in surfaces.cell_fields:
             raise ResultError(f"facets: expected one of {', '.join(surfaces.cell_fields)}, found {by}")
         mesh.cell_data[by] = magnitude(surfaces[by])
-        unit = FACETS.get(by, "1")
+        unit = FACET_FIELDS.get(by, "1")
         title = by if unit == "1" else f"{by} [{unit}]"
         bar = {"title": title, "color": "black", "fmt": "%.3g", "position_y": 0.9}
         plotter.add_mesh(mesh, scalars=by, cmap="magma_r", opacity=0.5, scalar_bar_args=bar)

@@ -7,21 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from cograin.plot.space import VIEWS, proportions
+from cograin.plot.space import EDGES, VIEWS, proportions
 from cograin.plot.style import figure, prefixed
-from cograin.plot.values import magnitude
+from cograin.plot.values import FACET_FIELDS, magnitude
 from cograin.results import Frame, ResultError
-
-#: Units of the fields of facets.
-FACET_FIELDS = {
-    "force": "N",
-    "traction": "Pa",
-    "normal_pressure": "Pa",
-    "wear": "m3",
-    "wear_depth": "m",
-    "impact_energy_normal": "J",
-    "impact_energy_tangential": "J",
-}
 
 
 def facets(frame: Frame, by: str = "wear_depth", view: str = "z", boundaries: Sequence[int] | None = None) -> Any:
@@ -51,8 +40,7 @@ def facets(frame: Frame, by: str = "wear_depth", view: str = "z", boundaries: Se
     order = np.argsort([-sign * corner[:, depth].mean() for corner in corners], kind="stable")
     found = magnitude(surfaces[by])[kept]
     factor, unit = prefixed(found, FACET_FIELDS.get(by, "1"))
-    edges = {"edgecolors": "#999999", "linewidths": 0.4}
-    shown = PolyCollection([corners[place][:, [across, up]] for place in order], cmap="viridis", **edges)
+    shown = PolyCollection([corners[place][:, [across, up]] for place in order], cmap="viridis", **EDGES)
     shown.set_array(factor * found[order])
     panel.add_collection(shown)
     drawn.colorbar(shown, ax=panel, label=by.replace("_", " ") + (f" [{unit}]" if unit != "1" else ""))

@@ -19,6 +19,16 @@ FIELDS = {
     "radius": "m",
     "temperature": "K",
 }
+#: Units of the fields of facets.
+FACET_FIELDS = {
+    "force": "N",
+    "traction": "Pa",
+    "normal_pressure": "Pa",
+    "wear": "m3",
+    "wear_depth": "m",
+    "impact_energy_normal": "J",
+    "impact_energy_tangential": "J",
+}
 #: Fields that are those of the whole clump on each of its spheres, as they are those of a particle; their names there.
 OF_CLUMPS = {"force": "force", "torque": "moment"}
 #: Part of its radius that a grain at rest may have moved since the start, at its present speed.
