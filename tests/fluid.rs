@@ -249,7 +249,6 @@ fn wind_on_a_box_of_grains_gives_them_what_it_loses() {
     };
     for _ in 0..5 {
         let before = [0, 1].map(|axis| momentum(&simulation, axis));
-        let floor = simulation.state().boundaries[0].clone();
         simulation.advance(4e-4).unwrap();
         for axis in 0..2 {
             let name = format!("air.mean_drag.{}", ["x", "y"][axis]);
@@ -386,6 +385,40 @@ losses = true
     assert_near(output(&simulation, "water.work"), drag * 0.3 * 0.01, 1e-12);
     assert_near(output(&simulation, "energy.lost.drag"), drag * 0.2 * 0.01, 1e-12);
     assert!(simulation.physical_residual().unwrap().abs() < 1e-12 * drag * 0.3 * 0.01);
+}
+
+#[test]
+fn settling_ends_where_the_floor_bears_what_the_water_does_not() {
+    let mut simulation = start(
+        r#"
+gravity = [0.0, 0.0, -9.81]
+[run]
+step = 1.0e-5
+[material.glass]
+density = 2500.0
+youngs_modulus = 1e7
+poissons_ratio = 0.25
+[pair.glass.glass]
+restitution = 0.5
+[contact.all.normal.hertz]
+[particles.grain]
+material = "glass"
+list = [{ position = [0.0, 0.0, 1.0e-3], radius = 1.0e-3 }]
+[boundary.floor]
+plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+material = "glass"
+[fluid.water]
+density = 1000.0
+viscosity = 1.0e-3
+velocity = [0.0, 0.0, 0.05]
+[fluid.water.drag.stokes]
+"#,
+    );
+    // Damping of settling vanishes where the whole load does, drag included.
+    simulation.damp_rest(0.5);
+    simulation.advance(0.1).unwrap();
+    let expected = PI / 6.0 * 8e-9 * 1500.0 * 9.81 - 3.0 * PI * 1e-3 * 2e-3 * 0.05;
+    assert_near(-simulation.state().boundaries[0].force[2], expected, 1e-9);
 }
 
 #[test]

@@ -117,7 +117,7 @@ restitution = 0.6
 friction = 0.4
 [contact.grains.normal.hertz]
 [contact.grains.tangential.history]
-[contact.grains.heat.conduction]
+[contact.grains.heat.constriction]
 [particles.cold]
 material = "glass"
 lattice = { kind = "simple_cubic", origin = [0.004, 0.004, 0.004], counts = [13, 13, 8], spacing = 8.0e-3, radius = 4.02e-3 }
@@ -154,7 +154,9 @@ fn threads_and_the_way_through_bytes_change_no_bit_of_a_field() {
     let state = State::from_bytes(&bytes, scene.fingerprint).expect("the bytes are whole");
     assert_eq!(bits(&Simulation::resume(scene, state).expect("it goes on"), 0), bits(&one, 0));
     let temperature = field(&one, "temperature");
-    assert!(temperature.iter().all(|it| *it == 0.0 || (280.0..=360.0).contains(it)), "{temperature:?}");
+    // A mean is rounded in its last digits.
+    let between = 280.0 - 1e-10..=360.0 + 1e-10;
+    assert!(temperature.iter().all(|it| *it == 0.0 || between.contains(it)), "{temperature:?}");
     let count: f64 = field(&one, "count").iter().sum();
     assert_eq!(count, field(&one, "count_by_set").iter().sum::<f64>(), "every particle is of one of the two sets");
 }
@@ -202,7 +204,7 @@ fn a_scene_scaled_by_a_power_of_two_has_the_same_porosities() {
 fn at_a_corner(motion: &str, corners: &str, counts: [u32; 3]) -> String {
     format!(
         "[run]\nstep = 1e-6\n[material.glass]\ndensity = 2500.0\n[particles.one]\nmaterial = \"glass\"\nlist = [{{ position = [0.0, 0.0, \
-         0.0], radius = 0.002 }}]\nvelocity = [0.1, 0.2, 0.3]\n[cell]\norigin = [0.0, 0.0, 0.0]\nedges = [0.01, 0.01, 0.01]\n{motion}\n[grid.bed]\nbox = \
+         0.0], radius = 0.002 }}]\nvelocity = [0.1, 0.2, 0.3]\n[cell]\norigin = [0.0, 0.0, 0.0]\nedges = [[0.01, 0.0, 0.0], [0.0, 0.01, 0.0], [0.0, 0.0, 0.01]]\n{motion}\n[grid.bed]\nbox = \
          {corners}\ncounts = {counts:?}\n{OUTPUTS}\n"
     )
 }
@@ -229,7 +231,7 @@ fn a_grid_in_a_periodic_cell_goes_on_through_its_faces() {
 
 #[test]
 fn a_grid_beside_a_cell_that_is_deformed_is_refused() {
-    let text = at_a_corner("motion = { xy = \"driven\" }", "[[0.0, 0.0, 0.0], [0.01, 0.01, 0.01]]", [2, 2, 2]);
+    let text = at_a_corner("motion = { driven = [\"xy\"] }", "[[0.0, 0.0, 0.0], [0.01, 0.01, 0.01]]", [2, 2, 2]);
     let message = read(&text).unwrap_err();
     assert!(message.contains("[grid.bed]: expected a [cell] that keeps its shape beside a grid"), "{message}");
 }

@@ -60,6 +60,7 @@ mod support;
 mod suppressed_contacts;
 mod surface_courses;
 mod surfaces;
+mod through;
 mod told_forces;
 mod touching_starts;
 mod traces;

@@ -79,7 +79,7 @@ film_damping = 2.0
 material = "a"
 list = [
   { position = [0.0, 0.0, 0.0], radius = 1e-3 },
-  { position = [1.9e-3, 0.0, 0.0], radius = 1e-3, velocity = [0.0, 1e-3, 0.0] },
+  { position = [1.99e-3, 0.0, 0.0], radius = 1e-3, velocity = [0.0, 1e-3, 0.0] },
 ]
 "#;
 

@@ -74,3 +74,32 @@ fn the_first_time_step_is_about_as_long_as_those_that_follow() {
     let last = simulation.state().clock.step;
     assert!(first < 1.3 * last && first > 0.5 * last, "{first} s, later {last} s");
 }
+
+#[test]
+fn cohesive_spheres_discs_clumps_and_a_servo_that_touch_at_rest_throw_nothing_up() {
+    let jkr = "surface_energy = 0.02\ndamping_coefficient = 100.0\n[contact.c.normal.jkr]\n";
+    let floor = "plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }";
+    let plate = "disc = { centre = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], radius = 0.1 }";
+    let (spheres, press) = (column(&[5e-3, 15e-3]), "motion = { servo = { z = { target = 5.0, speed = 0.02 } } }");
+    let lid = format!(
+        "[boundary.lid]\nplane = {{ point = [0.0, 0.0, 20e-3], normal = [0.0, 0.0, -1.0] }}\nmaterial = \"g\"\n{press}\n"
+    );
+    let clumps = format!(
+        "[clump.c]\nmaterial = \"g\"\nspheres = [{{ position = [-4e-3, 0.0, 0.0], radius = 5e-3 }}, {{ position = [4e-3, 0.0, 0.0], \
+         radius = 5e-3 }}]\n[particles.p]\nclump = \"c\"\nlist = [{{ position = [0.0, 0.0, 5e-3] }}, {{ position = [0.0, 0.0, 15e-3] }}]\n\
+         [boundary.f]\n{floor}\nmaterial = \"g\"\n"
+    );
+    let flat = scene("gravity = [0.0, 0.0, -9.81]", LAWS[0], &spheres)
+        .replace("[run]\n", "[run]\nplane = \"xz\"\nplane_particles = \"discs\"\n");
+    let scenes = [
+        scene("gravity = [0.0, 0.0, -9.81]", jkr, &spheres),
+        scene("gravity = [0.0, 0.0, -9.81]", LAWS[0], &spheres.replace(floor, plate)),
+        scene("gravity = [0.0, 0.0, -9.81]", LAWS[0], &clumps),
+        scene("", LAWS[0], &format!("{spheres}{lid}")),
+        flat,
+    ];
+    for text in scenes {
+        let found = rise(&text, 100);
+        assert!(found < 2e-3, "{text}: a sphere rises by {found} of its radius");
+    }
+}

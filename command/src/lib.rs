@@ -11,6 +11,7 @@ use chart::ChartArguments;
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{PackageError, export, find_libraries};
+use cograin::interface::Standard;
 use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, OutputError, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, RunOrder, SettleOrder, SettleProgress, SettleStart, Start};
@@ -176,12 +177,24 @@ struct ExportArguments {
     /// The unit's file
     #[arg(short, long, value_name = "FMU")]
     output: PathBuf,
+    /// The edition of FMI that the unit speaks: 2 (2.0) or 3 (3.0, with arrays)
+    #[arg(long, value_name = "EDITION", default_value = "2", value_parser = edition)]
+    fmi: Standard,
     /// The unit's library, if it is not in the folder of this program; may be given several times, once for each platform
     #[arg(long = "library", value_name = "FILE")]
     libraries: Vec<PathBuf>,
     /// Replace the file if it is there
     #[arg(long)]
     overwrite: bool,
+}
+
+/// The edition of FMI that a user names.
+fn edition(text: &str) -> Result<Standard, String> {
+    match text {
+        "2" | "2.0" => Ok(Standard::Fmi2),
+        "3" | "3.0" => Ok(Standard::Fmi3),
+        other => Err(format!("expected 2 or 3, found {other}")),
+    }
 }
 
 /// `cograin verify`
@@ -448,7 +461,7 @@ fn package(models: &Models, library: &str, arguments: &ExportArguments, quiet: b
         None => None,
     };
     let state = begun.as_ref().map(|begun| begun.simulation.state());
-    let exported = export(&source, &scene, state, &libraries, &arguments.output);
+    let exported = export(&source, &scene, state, &libraries, arguments.fmi, &arguments.output);
     exported.map_err(|error| match error {
         PackageError::Write { .. } => Ending::failed(error),
         PackageError::Chosen(error) => Ending::refused(format_args!("{}, {error}", source.name)),

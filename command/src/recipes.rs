@@ -61,15 +61,17 @@ recipes! {
     "loaded_beam" "grains on a floor that an elastic beam carries":
         "scene.toml" "../recipes/loaded_beam/scene.toml",
         "couple.py" "../recipes/loaded_beam/couple.py";
+    "fluid" "grains that settle in water":
+        "scene.toml" "../recipes/fluid/scene.toml";
     "heat" "grains that fall on a plate which warms them":
         "scene.toml" "../recipes/heat/scene.toml",
         "couple.py" "../recipes/heat/couple.py";
-    "fluid" "grains that settle in water":
-        "scene.toml" "../recipes/fluid/scene.toml";
     "clumps" "ballast: stones of four spheres fall into a box":
         "scene.toml" "../recipes/clumps/scene.toml";
     "tablets" "tablets of seven spheres in a drum that turns":
         "scene.toml" "../recipes/tablets/scene.toml";
+    "mill" "a ball mill: impacts by energy, wear of drum and lifters":
+        "scene.toml" "../recipes/mill/scene.toml";
 }
 
 /// `cograin new`

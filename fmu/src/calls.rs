@@ -1,4 +1,4 @@
-//! Which function may be called when.
+//! Which function may be called when: those of FMI 2.0, and the words for those of FMI 3.0.
 
 /// Where an instance stands between making and freeing it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl std::fmt::Display for Phase {
             Self::Initialization => "in the initialisation mode",
             Self::Ready => "between communication steps",
             Self::Discarded => "after a discarded communication step",
-            Self::Terminated => "after fmi2Terminate",
+            Self::Terminated => "after the end of the simulation",
             Self::Broken => "after an internal error",
         })
     }
@@ -44,9 +44,14 @@ pub(crate) struct Call {
 /// Declares the table: function, and when it may be called.
 macro_rules! calls {
     ($($constant:ident $name:literal: $($phase:ident)+;)+) => {
-        $(#[doc = concat!("`", $name, "`")] pub(crate) const $constant: Call = Call { name: $name, allowed: &[$($phase),+] };)+
+        $(#[doc = concat!("`", $name, "`")] pub(crate) const $constant: $crate::calls::Call = $crate::calls::Call { name: $name, allowed: &[$($crate::calls::Phase::$phase),+] };)+
     };
 }
+
+pub(crate) use calls;
+
+/// What may be called at any time.
+pub(crate) const ALWAYS: &[Phase] = &[Instantiated, Initialization, Ready, Discarded, Terminated, Broken];
 
 calls! {
     SET_DEBUG_LOGGING "fmi2SetDebugLogging": Instantiated Initialization Ready Discarded Terminated Broken;

@@ -2,10 +2,11 @@
 
 use crate::calls::Call;
 use crate::floating_point;
-use crate::instance::Instance;
+use crate::instance::{Instance, Request};
 use crate::logger::Logger;
 use crate::refusal::Refusal;
 use crate::types::{Component, Status};
+use cograin::scene::Models;
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -74,11 +75,31 @@ pub(crate) fn fresh_address() -> usize {
 }
 
 /// Enters an instance; yields what the host is to know it by, null if it cannot be entered.
-pub(crate) fn enter(guarded: Guarded) -> Component {
+fn enter(guarded: Guarded) -> Component {
     let address = fresh_address();
     match with_instances(|instances| instances.insert(address, Arc::new(guarded))) {
         Some(_) => std::ptr::without_provenance_mut(address),
         None => std::ptr::null_mut(),
+    }
+}
+
+/// Makes an instance as the host asks for it by this function; null if there is none. The reason goes to the logger.
+pub(crate) fn instantiate(function: &str, request: &Request, logger: Logger, models: fn() -> Models) -> Component {
+    silence_panics();
+    let made = || catch_unwind(AssertUnwindSafe(|| Instance::new(request, models())));
+    match floating_point::standard(made) {
+        Ok(Ok(instance)) => {
+            logger.event(|| format!("{function}: {}", instance.about()));
+            enter(Guarded::new(instance, logger))
+        }
+        Ok(Err(error)) => {
+            logger.failed(function, &error.to_string());
+            std::ptr::null_mut()
+        }
+        Err(panic) => {
+            logger.failed(function, &format!("internal error: {}", message_of(panic.as_ref())));
+            std::ptr::null_mut()
+        }
     }
 }
 
@@ -151,14 +172,14 @@ fn run(
 }
 
 /// What a panic says.
-pub(crate) fn message_of(panic: &(dyn Any + Send)) -> String {
+fn message_of(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())
 }
 
 /// Keeps panics from the host's terminal: they reach its logger. This library has a standard library of its
 /// own, so no panic of the host or of another unit is silenced.
-pub(crate) fn silence_panics() {
+fn silence_panics() {
     /// Hooks are set for good.
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

@@ -2,7 +2,7 @@
 //! arrays may lie over each other.
 
 use crate::refusal::Refusal;
-use crate::types::Text;
+use crate::types::{Reference, Text};
 use std::ffi::{CStr, CString};
 
 /// Memory of the host that results go to.
@@ -86,9 +86,16 @@ impl<T: Copy> Items<T> {
     }
 
     /// The items.
-    pub(crate) fn iter(self) -> impl Iterator<Item = T> {
+    pub(crate) fn iter(self) -> impl Iterator<Item = T> + Clone {
         // SAFETY: inside what may be read.
         (0..self.length).map(move |place| unsafe { self.start.add(place).read_unaligned() })
+    }
+}
+
+impl Items<Reference> {
+    /// The references of FMI 2.0, which are the places of variables in the table.
+    pub(crate) fn indices(self) -> impl Iterator<Item = usize> + Clone {
+        self.iter().map(|reference| reference as usize)
     }
 }
 

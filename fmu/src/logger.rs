@@ -1,9 +1,10 @@
 //! Messages to the host.
 
 use crate::refusal::Refusal;
-use crate::types::{Callbacks, Status};
+use crate::types::{Callbacks, Environment, Status};
+use crate::v3::LogFunction;
 use cograin::export::LOG_CATEGORIES;
-use std::ffi::{CStr, CString};
+use std::ffi::CString;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A category of messages.
@@ -22,12 +23,28 @@ pub(crate) enum Category {
 /// Place of `logAll` in [`LOG_CATEGORIES`]; the categories after it are bits 0, 1, 2 … of the mask.
 const ALL: usize = 0;
 
+/// Who takes messages.
+pub(crate) enum Host {
+    /// One that speaks FMI 2.0.
+    Fmi2 {
+        /// A copy: the host may free its own after `fmi2Instantiate`.
+        callbacks: Callbacks,
+        /// Name of the instance.
+        name: CString,
+    },
+    /// One that speaks FMI 3.0.
+    Fmi3 {
+        /// Takes messages.
+        logger: Option<LogFunction>,
+        /// Handed to it as it is.
+        environment: Environment,
+    },
+}
+
 /// Where messages of an instance go.
 pub(crate) struct Logger {
-    /// A copy: the host may free its own after `fmi2Instantiate`.
-    callbacks: Callbacks,
-    /// Name of the instance.
-    name: CString,
+    /// Who takes them.
+    host: Host,
     /// Categories that are wanted, as bits.
     wanted: AtomicU32,
 }
@@ -40,9 +57,9 @@ unsafe impl Sync for Logger {}
 
 impl Logger {
     /// A logger that reports errors, and everything if `verbose` is set.
-    pub(crate) fn new(callbacks: Callbacks, name: &CStr, verbose: bool) -> Self {
+    pub(crate) fn new(host: Host, verbose: bool) -> Self {
         let wanted = AtomicU32::new(if verbose { u32::MAX } else { 0 });
-        Self { callbacks, name: name.to_owned(), wanted }
+        Self { host, wanted }
     }
 
     /// Switches categories on or off; no names mean all.
@@ -89,7 +106,6 @@ impl Logger {
 
     /// Hands a finished message to the host.
     fn send(&self, status: Status, category: Category, message: &str) {
-        let Some(logger) = self.callbacks.logger else { return };
         // some hosts run printf over the message: a percent sign would read arguments that are not there
         let message = message.replace('%', " percent").replace('\0', " ");
         let Ok(message) = CString::new(message) else { return };
@@ -99,9 +115,17 @@ impl Logger {
             Category::Warning => c"logStatusWarning",
             Category::Events => c"logEvents",
         };
-        // SAFETY: the host vouches for its logger; all strings end in a zero and live until it returns.
-        unsafe {
-            logger(self.callbacks.environment, self.name.as_ptr(), status, category.as_ptr(), message.as_ptr());
+        let (category, message) = (category.as_ptr(), message.as_ptr());
+        match &self.host {
+            Host::Fmi2 { callbacks: Callbacks { logger: Some(logger), environment, .. }, name } => {
+                // SAFETY: the host vouches for its logger; all strings end in a zero and live until it returns.
+                unsafe { logger(*environment, name.as_ptr(), status, category, message) };
+            }
+            // SAFETY: as above.
+            Host::Fmi3 { logger: Some(logger), environment } => unsafe {
+                logger(*environment, status, category, message);
+            },
+            Host::Fmi2 { .. } | Host::Fmi3 { .. } => {}
         }
     }
 }

@@ -44,11 +44,41 @@ pub(crate) enum Refusal {
     /// The variable cannot be set so.
     #[error(transparent)]
     Interface(#[from] InterfaceError),
-    /// A variable of another type.
-    #[error("{reference} ({name}): expected a variable of type {expected}, found {found}")]
-    Type {
-        /// Its value reference.
+    /// A value reference that no variable of FMI 3.0 has.
+    #[error("{reference} is no value reference; they are 0 to {last}")]
+    Reference {
+        /// The reference.
         reference: u32,
+        /// The last one there is.
+        last: usize,
+    },
+    /// The time where a variable of the table is needed.
+    #[error(
+        "time: expected another variable of type {expected}, found the independent one, which fmi3GetFloat64 reads"
+    )]
+    Independent {
+        /// The type of the function.
+        expected: &'static str,
+    },
+    /// Arrays that do not fit the variables.
+    #[error("{argument}: expected {needed} elements, as many as the variables have, found {given}")]
+    Count {
+        /// The argument.
+        argument: &'static str,
+        /// How many the variables have.
+        needed: usize,
+        /// How many there are.
+        given: usize,
+    },
+    /// A function for what the unit does not have.
+    #[error("expected a unit with {what}; this one has none")]
+    Absent {
+        /// What it lacks.
+        what: &'static str,
+    },
+    /// A variable of another type.
+    #[error("{name}: expected a variable of type {expected}, found {found}")]
+    Type {
         /// Its name.
         name: String,
         /// Its type.
@@ -57,24 +87,20 @@ pub(crate) enum Refusal {
         expected: &'static str,
     },
     /// A result that is not a number.
-    #[error("{reference} ({name}) is {value}; its last finite value was before this time")]
+    #[error("{name} is {value}; its last finite value was before this time")]
     NoNumber {
-        /// Its value reference.
-        reference: u32,
         /// Its name.
         name: String,
         /// Its value.
         value: f64,
     },
     /// A derivative of an order that is not taken.
-    #[error("{reference} ({name}): expected {expected}, found order {order}")]
+    #[error("{name}: expected {expected}, found order {order}")]
     Order {
         /// The order.
         order: i32,
         /// What was expected.
         expected: &'static str,
-        /// The variable's value reference.
-        reference: u32,
         /// Its name.
         name: String,
     },
@@ -103,7 +129,7 @@ pub(crate) enum Refusal {
         present: f64,
     },
     /// A communication step beyond the experiment.
-    #[error("expected a step up to the stop time of fmi2SetupExperiment, {stop} s, found one to {end} s")]
+    #[error("expected a step up to the stop time, {stop} s, found one to {end} s")]
     Stop {
         /// End of the step \[s\].
         end: f64,
@@ -112,7 +138,7 @@ pub(crate) enum Refusal {
     },
     /// A communication step of so many time steps that they would take days.
     #[error(
-        "expected at most {most:.1e} time steps in one fmi2DoStep, found {count:.1e}, days of computing in which \
+        "expected at most {most:.1e} time steps in one communication step, found {count:.1e}, days of computing in which \
          the host cannot stop: {length} s in time steps of {step:.2e} s"
     )]
     TooMany {
@@ -126,9 +152,7 @@ pub(crate) enum Refusal {
         most: f64,
     },
     /// A handle that is not of this instance.
-    #[error(
-        "expected a state that fmi2GetFMUstate or fmi2DeSerializeFMUstate of this instance gave out, found another"
-    )]
+    #[error("expected a state that this instance gave out, found another")]
     Handle,
     /// A buffer of a wrong size.
     #[error("expected {needed} bytes, found {given}")]
@@ -186,7 +210,7 @@ pub(crate) enum Refusal {
         time: f64,
     },
     /// A panic.
-    #[error("internal error: {message}; call fmi2Reset or fmi2FreeInstance")]
+    #[error("internal error: {message}; reset or free the instance")]
     Panic {
         /// Its message.
         message: String,

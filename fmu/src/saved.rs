@@ -46,7 +46,7 @@ pub(crate) const CHECKED: usize = 8 + 4 + 8 + 8;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum BlobError {
     /// Another kind of data.
-    #[error("expected the bytes of fmi2SerializeFMUstate, found no state of a cograin unit")]
+    #[error("expected the bytes of a serialised state, found no state of a cograin unit")]
     Foreign,
     /// Another layout.
     #[error("state of layout version {found}; this unit reads version {VERSION}")]

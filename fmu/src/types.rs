@@ -1,4 +1,4 @@
-//! The C types of FMI 2.0.
+//! The C types of FMI: those of 2.0, and what 3.0 has of the same form under other names.
 
 use std::ffi::{c_char, c_int, c_void};
 
@@ -39,6 +39,8 @@ pub(crate) const LAST_SUCCESSFUL_TIME: c_int = 2;
 /// `fmi2Terminated`
 pub(crate) const TERMINATED: c_int = 3;
 
+/// `fmi2ComponentEnvironment`, `fmi3InstanceEnvironment`: handed to the logger as it is.
+pub type Environment = *mut c_void;
 /// `fmi2CallbackLogger`
 pub type LogFunction = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Text, ...);
 
@@ -55,5 +57,5 @@ pub struct Callbacks {
     /// Not used: steps are done when `fmi2DoStep` returns.
     pub step_finished: Option<unsafe extern "C" fn(*mut c_void, Status)>,
     /// Handed to the logger as it is.
-    pub environment: *mut c_void,
+    pub environment: Environment,
 }

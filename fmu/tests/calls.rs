@@ -1,5 +1,6 @@
 //! The C functions themselves: call orders, refusals, saved states, several instances.
 
+mod arrays;
 mod cost;
 mod derivatives;
 mod environment;

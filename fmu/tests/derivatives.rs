@@ -2,8 +2,8 @@
 
 use super::host::{BED, Host, Unpacked, source};
 use crate::types::Status;
-use crate::values::*;
-use crate::*;
+use crate::v2::values::*;
+use crate::v2::*;
 use cograin::scene::Source;
 
 impl Host<'_> {

@@ -6,7 +6,7 @@
 use super::host::{Host, Unpacked};
 use crate::floating_point::trial::within;
 use crate::types::Status;
-use crate::*;
+use crate::v2::*;
 
 /// All exceptions masked.
 const MASKED: u32 = 0x1F80;
@@ -22,7 +22,7 @@ fn outputs_within(control: u32, unit: &Unpacked) -> Vec<u64> {
         let names = ["floor.displacement.x", "grip.displacement.z"].map(|name| unit.reference(name));
         within(control, || {
             // SAFETY: two references and two values.
-            let status = unsafe { crate::values::fmi2SetReal(host.component, names.as_ptr(), 2, [x, z].as_ptr()) };
+            let status = unsafe { crate::v2::values::fmi2SetReal(host.component, names.as_ptr(), 2, [x, z].as_ptr()) };
             assert_eq!(status, Status::Ok);
             assert_eq!(fmi2DoStep(host.component, point, length, 1), Status::Ok);
         });

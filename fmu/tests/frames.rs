@@ -2,14 +2,15 @@
 
 use super::host::{Host, Unpacked, source};
 use crate::types::Status;
-use crate::values::*;
-use crate::*;
+use crate::v2::values::*;
+use crate::v2::*;
 use cograin::interface::FRAMES;
 use cograin::run::{EarlierResults, RunOrder, Start, run};
 use cograin::scene::{Scene, Source};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::ptr;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -304,7 +305,7 @@ fn a_folder_that_cannot_be_had_is_refused_in_words_and_another_one_can_be_named(
     );
     assert_eq!(host.set_text(FRAMES, place.name()), Status::Ok);
     assert_eq!(fmi2ExitInitializationMode(host.component), Status::Ok, "{}", host.said());
-    host.refused(host.set_text(FRAMES, ""), &[FRAMES, "fixed parameter", "until fmi2ExitInitializationMode"]);
+    host.refused(host.set_text(FRAMES, ""), &[FRAMES, "fixed parameter", "until the initialisation mode ends"]);
     go(&host, 0, 4, INTERVAL);
     assert_eq!(fmi2Terminate(host.component), Status::Ok);
     assert!(place.frames() == of_a_run(&framed(), "refused-run"));

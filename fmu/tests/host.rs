@@ -1,8 +1,8 @@
 //! A host: it unpacks a unit, calls the C functions and keeps their messages.
 
 use crate::types::{Callbacks, Component, Reference, StateHandle, Status, Text};
-use crate::values::*;
-use crate::*;
+use crate::v2::values::*;
+use crate::v2::*;
 use cograin::export::{identity, resources};
 use cograin::interface::{Interface, Type};
 use cograin::scene::{Scene, Source};
@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::ffi::{CStr, CString, c_void};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::ptr::null_mut;
+use std::ptr::{self, null_mut};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// A heap of spheres in frictional contact on a driven floor, and one sphere held from above.
@@ -99,7 +99,7 @@ type PlainLogFunction = unsafe extern "C" fn(*mut c_void, Text, Status, Text, Te
 fn callbacks(messages: &Messages) -> Callbacks {
     // SAFETY: a callee without variadic arguments reads the named ones where a variadic call puts them, on the
     // systems that units run on.
-    let log = unsafe { std::mem::transmute::<PlainLogFunction, types::LogFunction>(log) };
+    let log = unsafe { std::mem::transmute::<PlainLogFunction, crate::types::LogFunction>(log) };
     Callbacks {
         logger: Some(log),
         allocate_memory: None,
@@ -340,7 +340,8 @@ pub(super) fn instantiate(
     let (name, guid, location) = (text(name), guid.map(text), location.map(text));
     let pointer = |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
     // SAFETY: strings and callbacks live until the call returns, as FMI 2.0 demands.
-    let component =
-        unsafe { fmi2Instantiate(name.as_ptr(), kind, pointer(&guid), pointer(&location), callbacks.as_ref(), 0, 0) };
+    let component = unsafe {
+        crate::fmi2Instantiate(name.as_ptr(), kind, pointer(&guid), pointer(&location), callbacks.as_ref(), 0, 0)
+    };
     (component, messages)
 }

@@ -2,8 +2,8 @@
 
 use super::host::{Host, Unpacked, source};
 use crate::types::Status;
-use crate::values::*;
-use crate::*;
+use crate::v2::values::*;
+use crate::v2::*;
 use cograin::scene::Source;
 use std::collections::BTreeMap;
 
@@ -171,7 +171,7 @@ fn wrong_values_are_refused_in_the_words_of_the_scene_and_change_nothing() {
     host.refused(host.set_rate(friction, 0.1), &[friction, "only inputs have rates"]);
     assert_eq!(start(&host), Status::Ok);
     let stiffness = "material.glass.youngs_modulus";
-    host.refused(host.set(stiffness, 1.0e7), &[stiffness, "fixed parameter", "until fmi2ExitInitializationMode"]);
+    host.refused(host.set(stiffness, 1.0e7), &[stiffness, "fixed parameter", "until the initialisation mode ends"]);
     assert_eq!((host.get(friction), host.get(stiffness)), (0.4, 5.0e7));
     let untouched = Host::started(&unit);
     assert!(host.shake(0, 3) == untouched.shake(0, 3));

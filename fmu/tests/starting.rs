@@ -1,7 +1,7 @@
 //! Making an instance: what is read, and what is refused.
 
 use super::host::{Host, Unpacked, instantiate, source, uri};
-use crate::fmi2FreeInstance;
+use crate::v2::fmi2FreeInstance;
 use cograin::export::resources;
 use std::fs;
 

@@ -2,7 +2,7 @@
 
 use super::host::{Host, Unpacked, source};
 use crate::types::Status;
-use crate::*;
+use crate::v2::*;
 use cograin::scene::Source;
 use std::ptr::null_mut;
 

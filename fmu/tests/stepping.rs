@@ -2,9 +2,10 @@
 
 use super::host::{Host, Unpacked, source};
 use crate::types::Status;
-use crate::values::fmi2CancelStep;
-use crate::*;
+use crate::v2::values::fmi2CancelStep;
+use crate::v2::*;
 use cograin::scene::Source;
+use std::ptr;
 use std::thread;
 
 #[test]

@@ -27,6 +27,27 @@ MATERIAL
 file = "FILE"
 "#;
 
+/// A scene for a frame that a run wrote: spheres, or clumps, in the cell of the frame or without one.
+const FRAME: &str = r#"
+[run]
+threads = 1
+max_overlap = 0.5
+[material.a]
+density = 2500.0
+youngs_modulus = 1e7
+poissons_ratio = 0.3
+[pair.a.a]
+restitution = 0.5
+[contact.c.normal.hertz]
+[clump.c]
+material = "a"
+spheres = [{ position = [0.0, 0.0, 0.0], radius = 1e-2 }, { position = [0.01, 0.0, 0.0], radius = 8e-3 }]
+[particles.some]
+KIND
+materials = { 0 = "a" }
+file = "f.vtu"
+"#;
+
 /// A scene for a mesh of a file: spheres near it, one of which moves.
 const MESH: &str = r#"
 [run]
@@ -110,6 +131,23 @@ pub(crate) fn particles(bytes: &[u8]) {
     assert!(rows.position.iter().all(|row| row[3] > 0.0), "radii of a file");
     expect_finite(&simulation);
     advance(&mut simulation, 5);
+}
+
+/// Reads a frame of a run, as spheres and as clumps, and makes some steps with what it has.
+pub(crate) fn frames(bytes: &[u8]) {
+    for kind in ["", "clump = \"c\""] {
+        for cell in ["", "[cell]\n"] {
+            let text = FRAME.replace("KIND", kind) + cell;
+            let Some(scene) = scene(text, "f.vtu", bytes).filter(|scene| scene.particles.len() <= MOST) else {
+                continue;
+            };
+            let Ok(mut simulation) = Simulation::new(scene) else { continue };
+            let rows = &simulation.state().particles;
+            assert!(rows.position.iter().flatten().all(|number| number.is_finite()), "places of a frame");
+            expect_finite(&simulation);
+            advance(&mut simulation, 5);
+        }
+    }
 }
 
 /// Reads a mesh and lets spheres fly past it: as a wall, and as a skin whose nodes are driven.

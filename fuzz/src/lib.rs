@@ -27,13 +27,14 @@ pub struct Target {
 }
 
 /// All targets.
-pub static TARGETS: [Target; 5] = [
+pub static TARGETS: [Target; 6] = [
     Target {
         name: "scene",
         run: scene::run,
         corpus: &["tests/scenes/good", "tests/scenes/bad", "tests/scenes/overflowing"],
     },
     Target { name: "particles", run: files::particles, corpus: &["tests/scenes/foreign/clouds", "tests/scenes/files"] },
+    Target { name: "frames", run: files::frames, corpus: &["fuzz/corpus/particles"] },
     Target { name: "mesh", run: files::mesh, corpus: &["tests/scenes/foreign/meshes"] },
     Target { name: "state", run: state::run, corpus: &[] },
     Target { name: "calls", run: calls::run, corpus: &[] },

@@ -7,8 +7,8 @@ A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are
 `Quadratic` is of fourth order.
 `couple` runs both sides and returns a `Record`.
 
-The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh. `Cells` are
-those of a grid.
+The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.
+`Cells` are those of a grid.
 
 Forces are those *of the particles on the boundary*. SI units, radians.
 
@@ -30,7 +30,7 @@ next: cograin check drop/scene.toml
 True
 
 `cograin.results` reads what runs leave, `cograin.plot` draws it, `cograin.study` makes many runs, `cograin.precice`
-joins units to preCICE.
+joins units to preCICE. `cograin.ssp` packs several into one system (SSP).
 """
 
 from cograin.cells import Cells

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 class Cells:
     """The cells of ``[grid.<name>]``: ``unit.cells("bed")``.
 
-    ``centres`` (cells, 3) \\[m\\] and ``volumes`` \\[m³\\] are those of the cells, along x first, then y, then z. ``cells["velocity"]``
-    is the present field: an array (cells,) of a number, (cells, components) of a vector or a tensor. Inputs are set likewise.
+    ``centres`` (cells, 3) \\[m\\] and ``volumes`` \\[m³\\] are those of the cells, along x first, then y, then z.
+    ``cells["velocity"]`` is the present field: an array (cells,) of a number, (cells, components) of a vector or a
+    tensor. Inputs are set likewise.
     """
 
     def __init__(self, unit: Unit, grid: str) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from cograin import interrupts
 from cograin.rotation import after, quaternion, rotation_vector, secant, tangent, turn
 from cograin.step import Force, Step
-from cograin.unit import State, Unit
+from cograin.unit import State, StepDiscarded, Unit
 from cograin.vector import Matrix, Vector, vector
 
 # What the particles give back for what they are given, by design.
@@ -114,11 +114,22 @@ class _Part:
                 raise ValueError(f"{unit.name}: {name} is an {unit.variable(name).causality}; an input is needed")
         boundaries = dict.fromkeys(name.split(".")[0] for name in displacements)
         works = tuple(f"{boundary}.work" for boundary in boundaries)
-        warm = any(name.endswith(f".{TEMPERATURE}") for name in displacements)
-        self.works = works if not warm and all(name in unit.variables for name in works) else ()
+        warm = [name.endswith(f".{TEMPERATURE}") for name in displacements]
+        #: Whether they are temperatures.
+        self.warm = any(warm)
+        if through is not None and self.warm and not all(warm):
+            raise ValueError("through: expected displacements or temperatures, found both")
+        self.works = works if not self.warm and all(name in unit.variables for name in works) else ()
         self.slopes: tuple[str, ...] = ()  # names of the slopes of the forces, once they are asked for
         self.state: State | None = None
         self.begin = unit.get(displacements)
+        if through is not None and self.warm:
+            off = np.abs(through @ np.full(through.shape[1], self.begin[0]) - self.begin).max()
+            if not off <= 1e-9 * np.abs(self.begin).max():
+                raise ValueError(
+                    "through: expected a unit of one temperature at the start, and rows that have the sum 1; "
+                    f"one temperature of the partner is {off:.3g} K off"
+                )
         #: How many directions of the partner it has.
         self.size = len(displacements) if through is None else through.shape[1]
         self.turns = list(_turns_of(unit, displacements, ends, means))
@@ -137,22 +148,37 @@ class _Part:
         """Names of its directions."""
         if self.through is None:
             return self.displacements
-        boundary = self.displacements[0].split(".")[0]
-        return tuple(f"{boundary}.mapped[{number}]" for number in range(1, self.size + 1))
+        boundary, last = self.displacements[0].split(".")[0], f".{TEMPERATURE}" if self.warm else ""
+        return tuple(f"{boundary}.mapped[{number}]{last}" for number in range(1, self.size + 1))
 
     @property
     def displacement(self) -> Vector:
-        """Present displacements; those of a mapping are counted from where the unit begins."""
-        return self.unit.get(self.displacements) if self.through is None else np.zeros(self.size)
+        """Present displacements; those of a mapping are counted from where the unit begins, temperatures are not."""
+        if self.through is None:
+            return self.unit.get(self.displacements)
+        return np.full(self.size, self.begin[0]) if self.warm else np.zeros(self.size)
 
     def move(self, displacement: Vector) -> None:
         """Gives the unit where it is to be."""
-        given = displacement if self.through is None else self.begin + self.through @ displacement
+        if self.through is None:
+            given = displacement
+        else:
+            mapped = self.through @ displacement
+            given = mapped if self.warm else self.begin + mapped
+        if self.warm:
+            self._possible(given)
         if self.turns:
             given = given.copy()
             for one in self.turns:
                 given[one.places] = one.move(given[one.places], self.unit.get(one.others))
         self.unit.set(self.displacements, given)
+
+    def _possible(self, given: Vector) -> None:
+        """Refuses what no partner reaches but a trial, or an exchange that swings: an exchange then tries less."""
+        for name, value in zip(self.displacements, given, strict=True):
+            if value < 0.0 and name.endswith(f".{TEMPERATURE}"):
+                said = f"{name}: expected 0 K or above, found {value:g} K"
+                raise StepDiscarded(f"{self.unit.name}: {said}", said, self.unit.time)
 
     def bend(self, acceleration: Vector, displacement: Vector, length: float) -> None:
         """Gives the unit where it is to be at the end of a step of this length \\[s\\], and its acceleration in it."""
@@ -247,7 +273,8 @@ class Interface:
 
     ``through`` is a matrix with a row for each of the displacements and a column for each direction of the partner: the
     unit moves by it, and forces go back by its transpose. The partner's displacements are counted from where the unit
-    stands. With the `matrix` of a `Mapping` they are those of the nodes of the partner's own mesh.
+    stands. With the `matrix` of a `Mapping` they are those of the nodes of the partner's own mesh. Temperatures are not
+    counted from the start: all are the same there, and `shares` of a `Mapping` is the matrix for them.
 
     ``Interface(bed, "floor.temperature")`` couples a temperature \\[K\\]; what responds is the heat flow of the
     particles into the boundary \\[W\\], ``floor.heat_flow`` and ``floor.mean_heat_flow``.

@@ -34,9 +34,12 @@ class Mapping:
         found = _nearest(corners, faces, targets)
         rows = np.repeat(np.arange(len(targets)), 3)
         shape = (len(targets), len(corners))
-        shares = scipy.sparse.csr_matrix((found.shares.ravel(), (rows, faces[found.triangle].ravel())), shape=shape)
-        matrix = scipy.sparse.kron(shares, scipy.sparse.identity(3))
-        projections = shares @ corners
+        #: What each point has of each node, (k, n), a sparse matrix of scipy: the ``through`` of temperatures.
+        self.shares: Any = scipy.sparse.csr_matrix(
+            (found.shares.ravel(), (rows, faces[found.triangle].ravel())), shape=shape
+        )
+        matrix = scipy.sparse.kron(self.shares, scipy.sparse.identity(3))
+        projections = self.shares @ corners
         #: How far each point is from its projection \\[m\\].
         self.distance: Vector = np.linalg.norm(targets - projections, axis=1)
         #: The triangle of each point.
@@ -54,6 +57,14 @@ class Mapping:
         """Forces on the nodes (n, 3) from those on the points (k, 3)."""
         return _through(self._back, of_points, "forces on the points")
 
+    def temperature(self, of_nodes: ArrayLike) -> Vector:
+        """Temperatures of the points (k,) from those of the nodes (n,)."""
+        return _shared(self.shares, of_nodes, "temperatures of the nodes")
+
+    def heat_flow(self, of_points: ArrayLike) -> Vector:
+        """Heat flows into the nodes (n,) from those into the points (k,); their sum stays."""
+        return _shared(self.shares.T, of_points, "heat flows into the points")
+
 
 class _Found:
     """The triangle that is nearest to each point, and the shares of its corners in the projection."""
@@ -70,6 +81,15 @@ def _through(matrix: Any, values: ArrayLike, what: str) -> Matrix:
     if rows.shape != right:
         raise ValueError(f"{what}: expected an array of {right}, found {rows.shape}")
     found: Matrix = (matrix @ rows.ravel()).reshape(-1, 3)
+    return found
+
+
+def _shared(matrix: Any, values: ArrayLike, what: str) -> Vector:
+    """The product of a matrix with numbers."""
+    numbers = np.asarray(values, dtype=float)
+    if numbers.shape != (matrix.shape[1],):
+        raise ValueError(f"{what}: expected an array of ({matrix.shape[1]},), found {numbers.shape}")
+    found: Vector = matrix @ numbers
     return found
 
 

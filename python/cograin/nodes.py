@@ -1,4 +1,7 @@
-"""Nodes of a mesh of a unit, as arrays: a row for each node in the order of the unit, a column for each of x, y, z."""
+"""Nodes of a mesh of a unit, as arrays: a row for each node in the order of the unit, a column for each of x, y, z.
+
+Temperatures and heat flows have a number for each node.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cograin.vector import Matrix
+from cograin.vector import Matrix, Vector
 
 if TYPE_CHECKING:
     from cograin.unit import Unit
+
+
+#: Quantities of which a node has one number.
+SCALARS = ("temperature", "heat_flow", "mean_heat_flow", "heat")
 
 
 class Nodes:
@@ -19,7 +26,9 @@ class Nodes:
 
     ``places`` are the nodes at time 0 \\[m\\], ``triangles`` the nodes of each face, counted from 0. `displacement`
     \\[m\\] is set before a communication step and reached at its end; `force` and `mean_force` \\[N\\] are the parts of
-    the nodes in the force of the particles on the boundary. All are arrays (nodes, 3).
+    the nodes in the force of the particles on the boundary. All are arrays (nodes, 3). `temperature` \\[K\\] is set
+    likewise where the boundary has driven ones; `heat_flow` and `mean_heat_flow` \\[W\\] are the heat flows of the
+    particles into the nodes. They are arrays (nodes,).
     """
 
     def __init__(self, unit: Unit, boundary: str) -> None:
@@ -33,9 +42,9 @@ class Nodes:
         return len(self.places)
 
     def names(self, quantity: str) -> tuple[str, ...]:
-        """Names of the variables of a quantity, node after node: those of `displacement` couple an `Interface`."""
-        numbers = range(1, len(self) + 1)
-        return tuple(f"{self.boundary}.node[{number}].{quantity}.{axis}" for number in numbers for axis in "xyz")
+        """Names of the variables of a quantity, node after node. Inputs among them couple an `Interface`."""
+        lasts = [quantity] if quantity in SCALARS else [f"{quantity}.{axis}" for axis in "xyz"]
+        return tuple(f"{self.boundary}.node[{number}].{last}" for number in range(1, len(self) + 1) for last in lasts)
 
     @property
     def displacement(self) -> Matrix:
@@ -60,6 +69,33 @@ class Nodes:
     def mean_force(self) -> Matrix:
         """Mean forces of the particles over the last communication step \\[N\\]."""
         return self._get("mean_force")
+
+    @property
+    def temperature(self) -> Vector:
+        """Temperatures given last \\[K\\]."""
+        return self.unit.get(self.names("temperature"))
+
+    @temperature.setter
+    def temperature(self, values: ArrayLike) -> None:
+        given = np.asarray(values, dtype=float)
+        if given.shape not in ((), (len(self),)):
+            raise ValueError(f"temperature: expected a number, or an array of ({len(self)},), found {given.shape}")
+        self.unit.set(self.names("temperature"), np.broadcast_to(given, (len(self),)))
+
+    @property
+    def heat_flow(self) -> Vector:
+        """Heat flows of the particles into the nodes at the present time \\[W\\]."""
+        return self.unit.get(self.names("heat_flow"))
+
+    @property
+    def mean_heat_flow(self) -> Vector:
+        """Mean heat flows of the particles into the nodes over the last communication step \\[W\\]."""
+        return self.unit.get(self.names("mean_heat_flow"))
+
+    @property
+    def heat(self) -> Vector:
+        """Heat of the particles into the nodes since the start \\[J\\]."""
+        return self.unit.get(self.names("heat"))
 
     def _get(self, quantity: str) -> Matrix:
         """Values of a quantity."""

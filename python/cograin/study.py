@@ -39,7 +39,9 @@ from typing import Any
 from cograin.extras import needed
 from cograin.identity import Identity, differing, identity, of_file, of_program, of_scene, of_words
 from cograin.program import Program, ProgramError
-from cograin.results import ResultError, Run, reason
+from cograin.results import ResultError, Run
+from cograin.results.errors import reason
+from cograin.results.table import html
 
 #: A number or a text of a table.
 Value = float | int | bool | str
@@ -410,6 +412,15 @@ class Study:
         columns["error"] = [result.error for result in done]
         columns["seconds"] = [result.seconds for result in done]
         return columns
+
+    def __repr__(self) -> str:
+        done = sum(_key(row) in self.results for row in self.rows)
+        return f"<Study of {len(self.rows)} rows in {self.folder}, {done} done>"
+
+    def _repr_html_(self) -> str:
+        """The first and the last rows that are done, as a notebook shows them."""
+        columns = self.columns
+        return html(list(columns), list(zip(*columns.values(), strict=True)), repr(self))
 
     def to_pandas(self) -> Any:
         """The table as a ``pandas.DataFrame``."""

@@ -21,11 +21,23 @@ from typing import Any
 import numpy as np
 
 from cograin.extras import needed
-from cograin.plot import FIELDS, _ends, _joined, _magnitude, _scale, _still
+from cograin.plot.command import numbered
+from cograin.plot.values import FIELDS, are_kinds, colouring, contact_lines, ends, joined, magnitude, values
+from cograin.plot.values import scale as scale_of
 from cograin.results import Cloud, Frame, ResultError, Run
 
 #: Directions from which a picture may be seen.
 DIRECTIONS = ("x", "y", "z", "isometric")
+#: Units of the fields of facets.
+FACETS = {
+    "normal_pressure": "Pa",
+    "traction": "Pa",
+    "force": "N",
+    "wear": "m3",
+    "wear_depth": "m",
+    "impact_energy_normal": "J",
+    "impact_energy_tangential": "J",
+}
 #: Up to so many particles are drawn as fine spheres.
 FINE = 2000
 
@@ -38,14 +50,15 @@ def scene(
     names: Mapping[int, str] | None = None,
     view: str = "isometric",
     chains: bool = False,
-    pressure: bool = False,
+    facets: str | None = None,
     scale: tuple[float, float] | None = None,
 ) -> Any:
     """A frame of a run: particles, surfaces where they are now, bonds, and the edges of a cell.
 
     ``by`` is the field that colours the particles; ``names`` are those of its numbers, such as sets. ``chains`` draws
     normal forces as tubes, the wider the larger, and particles as thin shells (needs ``[output] contacts``).
-    ``pressure`` colours facets by the pressure on them (needs ``[output] boundaries``).
+    ``facets`` is the field that colours the facets of boundaries, such as ``normal_pressure`` or ``wear_depth`` (needs
+    ``[output] boundaries``).
     """
     frames = run.frames
     if not frames:
@@ -58,8 +71,8 @@ def scene(
     plotter.set_background("white")
     particles = chosen.particles
     if len(particles):
-        _particles(pyvista, plotter, particles, by, names or {}, scale, _still(particles, chosen.time), chains)
-    _surfaces(pyvista, plotter, chosen, pressure)
+        _particles(pyvista, plotter, chosen, particles, by, names or {}, scale, chains)
+    _surfaces(pyvista, plotter, chosen, facets)
     if (bonds := chosen.bonds) is not None and len(bonds) and len(particles):
         _tubes(pyvista, plotter, bonds.points.reshape(-1, 2, 3), np.median(particles["radius"]) / 4.0, "#444444")
     if (cell := chosen.cell) is not None and len(cell):
@@ -82,55 +95,54 @@ def _turned(plotter: Any, view: str) -> None:
 def _particles(
     pyvista: Any,
     plotter: Any,
+    frame: Frame,
     particles: Cloud,
     by: str,
     names: Mapping[int, str],
     scale: Any,
-    still: float,
     thin: bool,
 ) -> None:
     """The particles as spheres, those of clumps, too, coloured by a field."""
-    if by == "set" and "set" not in particles.fields:
-        by = "material"  # a scene of one set does not number it
-    if by not in particles.fields:
-        raise ResultError(f"by: expected one of {', '.join(particles.fields)}, found {by}")
-    values = particles[by]
-    kinds = values.dtype.kind in "iu" and by not in ("id", "clump") and len(np.unique(values)) <= 20
+    by = colouring(particles, by)
+    kinds = are_kinds(particles, by)
+    found = particles[by] if kinds else values(frame, particles, by)
     cloud = pyvista.PolyData(particles.points)
-    cloud["radius"], cloud[by] = particles["radius"], values if kinds else _magnitude(values)
+    cloud["radius"], cloud[by] = particles["radius"], found
     sides = 24 if len(particles) <= FINE else 10
     ball = pyvista.Sphere(radius=1.0, theta_resolution=sides, phi_resolution=sides)
     spheres = cloud.glyph(geom=ball, scale="radius", orient=False)
     style: dict[str, Any] = {"opacity": 0.12 if thin else 1.0, "smooth_shading": True, "show_scalar_bar": not thin}
     if kinds:
-        found = np.unique(values)
-        spheres[by] = np.searchsorted(found, spheres[by]).astype(float)
-        told = {float(place): names.get(int(kind), f"{by} {kind}") for place, kind in enumerate(found)}
-        style.update(annotations=told, n_colors=len(found), clim=(-0.5, len(found) - 0.5))
+        each = np.unique(found)
+        spheres[by] = np.searchsorted(each, spheres[by]).astype(float)
+        told = {float(place): names.get(int(kind), f"{by} {kind}") for place, kind in enumerate(each)}
+        style.update(annotations=told, n_colors=len(each), clim=(-0.5, len(each) - 0.5))
         style["scalar_bar_args"] = {"title": by, "color": "black", "n_labels": 0}
     else:
-        style.update(clim=scale or _scale(_magnitude(values)), cmap="viridis")
-        if scale is None and by == "velocity":
-            style["clim"] = (style["clim"][0], max(style["clim"][1], still))
+        style.update(clim=scale or ends(particles, by, found, frame.time), cmap="viridis")
         unit = FIELDS.get(by, "1")
         title = by if unit == "1" else f"{by} [{unit}]"
         style["scalar_bar_args"] = {"title": title, "color": "black", "fmt": "%.3g"}
     plotter.add_mesh(spheres, scalars=by, **style)
 
 
-def _surfaces(pyvista: Any, plotter: Any, frame: Frame, pressure: bool) -> None:
+def _surfaces(pyvista: Any, plotter: Any, frame: Frame, by: str | None) -> None:
     """The boundaries where they are at this time."""
     surfaces = frame.boundaries
     if surfaces is None or not len(surfaces):
-        if pressure:
-            raise ResultError("pressure: expected files of boundaries; [output] boundaries = true writes them")
+        if by:
+            raise ResultError("facets: expected files of boundaries; [output] boundaries = true writes them")
         return
     faces = np.concatenate([np.concatenate([[len(cell)], cell]) for cell in surfaces.cells])
     mesh = pyvista.PolyData(surfaces.points, faces)
-    if pressure:
-        mesh.cell_data["pressure"] = surfaces["normal_pressure"]
-        bar = {"title": "pressure [Pa]", "color": "black", "fmt": "%.3g", "position_y": 0.9}
-        plotter.add_mesh(mesh, scalars="pressure", cmap="magma_r", opacity=0.5, scalar_bar_args=bar)
+    if by:
+        if by not in surfaces.cell_fields:
+            raise ResultError(f"facets: expected one of {', '.join(surfaces.cell_fields)}, found {by}")
+        mesh.cell_data[by] = magnitude(surfaces[by])
+        unit = FACETS.get(by, "1")
+        title = by if unit == "1" else f"{by} [{unit}]"
+        bar = {"title": title, "color": "black", "fmt": "%.3g", "position_y": 0.9}
+        plotter.add_mesh(mesh, scalars=by, cmap="magma_r", opacity=0.5, scalar_bar_args=bar)
     else:
         plotter.add_mesh(
             mesh, color="#8899aa", opacity=0.15, show_edges=len(surfaces.cells) < 500, edge_color="#8899aa"
@@ -154,7 +166,7 @@ def _chains(pyvista: Any, plotter: Any, frame: Frame, particles: Cloud) -> None:
         raise ResultError("chains: expected files of contacts; [output] contacts = true writes them")
     if not len(contacts):
         return
-    lines, force = _joined(*_ends(frame, particles, contacts), contacts["normal_force"], frame.edges)
+    lines, force = joined(*contact_lines(frame, particles, contacts), contacts["normal_force"], frame.edges)
     largest = float(np.abs(force).max())
     if not largest:
         return
@@ -171,12 +183,13 @@ def film(run: Run, path: str | Path, *, pause: float = 0.1, **named: Any) -> Pat
     """Writes all frames as an animated GIF, with the same colours and from the same place."""
     image = needed("PIL.Image", "view")
     by = named.get("by", "velocity")
-    clouds = [frame.particles for frame in run.frames]
-    values = [_magnitude(cloud[by]) for cloud in clouds if len(cloud) and by in cloud.fields]
-    if values and "scale" not in named:
-        named["scale"] = _scale(np.concatenate(values))
+    frames = run.frames
+    filled = [(frame, cloud) for frame in frames if len(cloud := frame.particles)]
+    found = [values(frame, cloud, colouring(cloud, by)) for frame, cloud in filled]
+    if found and named.get("scale") is None:
+        named["scale"] = scale_of(np.concatenate(found))
     pictures, camera = [], None
-    for number in range(len(clouds)):
+    for number in range(len(frames)):
         plotter = scene(run, number, **named)
         if camera is not None:
             plotter.camera_position = camera
@@ -201,7 +214,7 @@ def save(run: Run, path: str | Path, **named: Any) -> Path:
     else:
         for module in ("trame_pyvista", "nest_asyncio2"):
             needed(module, "view")
-        plotter.export_html(path)
+        plotter.trame.export_html(path)
     plotter.close()
     return path
 
@@ -212,14 +225,20 @@ def main(words: Iterable[str] | None = None) -> int:
     parser.add_argument("source", type=Path, metavar="OUT", help="folder of cograin run")
     parser.add_argument("-o", "--output", type=Path, help=".png, .html or .gif (all frames); default OUT/view.png")
     parser.add_argument("--by", default="velocity", help="what colours the particles (default: velocity)")
+    parser.add_argument("--names", nargs="+", metavar="NAME", help="names of sets or materials, in their order")
     parser.add_argument("--frame", type=int, default=-1, help="number of the frame (default: the last)")
+    parser.add_argument("--time", type=float, help="the frame that is nearest to this time [s], instead")
     parser.add_argument("--view", default="isometric", choices=DIRECTIONS, help="from where (default: isometric)")
     parser.add_argument("--chains", action="store_true", help="normal forces of contacts as tubes")
-    parser.add_argument("--pressure", action="store_true", help="facets coloured by the pressure on them")
+    parser.add_argument("--facets", metavar="FIELD", help="what colours the facets: normal_pressure, wear_depth, ...")
     options = parser.parse_args(None if words is None else list(words))
-    named = {name: getattr(options, name) for name in ("by", "frame", "view", "chains", "pressure")}
+    named = {name: getattr(options, name) for name in ("by", "frame", "view", "chains", "facets")}
+    named["names"] = numbered(options.names)
     try:
-        print(save(Run(options.source), options.output or options.source / "view.png", **named))
+        run = Run(options.source)
+        if options.time is not None:
+            named["frame"] = [frame.number for frame in run.frames].index(run.frame_at(options.time).number)
+        print(save(run, options.output or options.source / "view.png", **named))
     except ModuleNotFoundError as error:
         print(error, file=sys.stderr)
         return 1

@@ -185,7 +185,10 @@ class Participant:
     # Data
 
     def write_data(self, mesh, data, vertices, values):
-        assert data == self.config.sent[self.name][1] and np.shape(values) == self.meshes[mesh].shape
+        assert data == self.config.sent[self.name][1] and np.shape(values) in (
+            self.meshes[mesh].shape,
+            (len(self.meshes[mesh]),),
+        )
         self.written = np.array(values, dtype=float)
 
     def read_data(self, mesh, data, vertices, time):

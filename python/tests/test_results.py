@@ -1,11 +1,14 @@
 """What a run leaves comes back as numbers with their units, and as pictures."""
 
+import base64
+import re
+
 import numpy as np
 import pytest
-from conftest import DROP
+from conftest import DROP, ROOT
 
 from cograin import Interface, Oscillator, Secant, couple
-from cograin.results import ResultError, Run, read_frame, read_table, unit_of
+from cograin.results import ResultError, Run, joined, read_frame, read_image, read_table, unit_of
 
 SCENE = """
 gravity = [0.0, 0.0, -9.81]
@@ -48,6 +51,10 @@ energy = true
 losses = true
 [derived.support]
 sum = ["floor.force.z", "floor.mean_force.z"]
+[grid.cut]
+box = [[-0.02, -0.02, 0.0], [0.07, 0.01, 0.04]]
+counts = [3, 1, 2]
+outputs = ["porosity", "velocity", "stress", "count", "count_by_set"]
 [region.all]
 box = [[-1.0, -1.0, 0.0], [1.0, 1.0, 1.0]]
 """
@@ -76,8 +83,21 @@ def test_names_of_every_kind_tell_their_units():
         "cell.servo_error.xx": "Pa",
         "cell.conjugate_stress.xz": "Pa",
         "heap.granular_temperature": "m2/s2",
+        "bed.cell[3].stress.xx": "Pa",
+        "bed.cell[3].count_by_set.mass": "1",
     }.items():
         assert unit_of(name) == unit, name
+
+
+def test_the_page_of_variables_has_the_units_that_their_names_tell():
+    page = (ROOT / "docs" / "fmu.md").read_text(encoding="utf-8").split("## Parameters")[0]
+    found = {}
+    for names, unit in re.findall(r"^\| (`.*?) \| ([A-Za-z0-9/.]+) \|", page, re.MULTILINE):
+        stem = re.sub(r"<[^>]*>", "a", re.match(r"`([^`]*)`", names)[1])
+        if not stem.endswith(".rate"):
+            found[stem] = unit
+    assert len(found) > 60
+    assert {name: unit_of(name) for name in found} == found
 
 
 def test_the_history_is_a_table_by_names(folder):
@@ -130,6 +150,32 @@ def test_frames_are_the_arrays_that_meshio_reads(folder):
         assert [list(cell) for cell in ours.cells] == ends, kind
 
 
+def test_fields_of_a_grid_are_the_arrays_that_vtk_reads(folder):
+    pyvista = pytest.importorskip("pyvista")
+    ours, theirs = read_image(folder / "grid_cut_000001.vti"), pyvista.read(folder / "grid_cut_000001.vti")
+    assert np.abs(ours.centres - theirs.cell_centers().points).max() < 1e-15
+    assert list(ours.fields) == list(theirs.cell_data.keys()) == ["porosity", "velocity", "stress", "count", "count_by_set"]
+    for name, values in theirs.cell_data.items():
+        assert np.array_equal(ours[name], np.asarray(values).reshape(ours[name].shape)), name
+    stress = theirs.GetCellData().GetArray("stress")
+    assert tuple(stress.GetComponentName(place) for place in range(6)) == ours.components["stress"]
+    assert ours.components["stress"] == ("xx", "yy", "zz", "xy", "xz", "yz")
+
+
+def test_a_grid_shows_where_the_spheres_are(folder):
+    last = Run(folder).frames[-1]
+    assert last.grids == ["cut"]
+    image, particles = last.grid("cut"), last.particles
+    assert repr(image) == "<Image of 3 x 1 x 2 cells: porosity, velocity, stress, count, count_by_set>"
+    assert image["count_by_set"].sum(axis=0).tolist() == [2, 1] and image["count"].sum() == 3
+    solid = ((1.0 - image["porosity"]) * image.edges.prod()).sum()
+    assert solid <= 3 * 4 / 3 * np.pi * 0.01**3
+    place = np.floor((particles.points - image.lower) / image.edges).astype(int)
+    assert image.box("count")[tuple(place.T)].min() >= 1
+    with pytest.raises(ResultError, match="grid_heap_000002.vti: expected a frame of cograin: No such file"):
+        last.grid("heap")
+
+
 def test_a_frame_knows_its_time_and_what_it_has(folder):
     first, *_, last = Run(folder).frames
     assert [first.time, last.time] == [0.0, 0.02]
@@ -173,7 +219,7 @@ def test_everything_that_a_run_has_is_drawn(folder, tmp_path):
     made = {path.name for path in draw(folder, tmp_path / "pictures")}
     assert made == {
         "history.png", "energy.png", "packing_velocity.png", "packing_force.png", "packing_set.png", "force_chains.png",
-        "cracks.png", "animation.gif",
+        "cracks.png", "animation.gif", "cut_porosity.png", "cut_velocity.png", "cut_stress.png", "cut_count.png",
     }  # fmt: skip
     for path in (tmp_path / "pictures").iterdir():
         assert path.stat().st_size > 3000, path
@@ -283,21 +329,157 @@ def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
         assert main([str(folder), "-o", str(tmp_path / "view.png"), *words]) == 0, capsys.readouterr().err
         return np.asarray(image.open(tmp_path / "view.png").convert("RGB")).reshape(-1, 3)
 
-    pictures = [drawn(*words) for words in (["--by", "set"], ["--chains"], ["--pressure", "--view", "x"])]
+    pictures = [
+        drawn(*words) for words in (["--by", "set"], ["--chains"], ["--facets", "normal_pressure", "--view", "x"])
+    ]
     for picture in pictures:
         assert (picture.min(axis=1) < 245).mean() > 0.01, "more than the background"
     assert (np.ptp(pictures[0], axis=1) > 60).any(), "sets have colours"
     assert not np.array_equal(pictures[0], pictures[1])
     assert main([str(folder), "-o", str(tmp_path / "film.gif")]) == 0
     assert image.open(tmp_path / "film.gif").n_frames == len(Run(folder).frames)
-    for words in (["--by", "colour"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
+    for words in (["--by", "colour"], ["--facets", "paint"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
         assert main([str(folder), *words]) == 2
     assert "expected one of radius" in capsys.readouterr().err
 
 
+def test_histories_of_a_run_that_went_on_beyond_its_end_join_as_one_longer_run(program, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE)
+    program("run", scene, "-o", tmp_path / "whole")
+    program("run", scene, "-o", tmp_path / "first", "--set", "run.end=0.01")
+    start = tmp_path / "first" / "checkpoint.cograin"
+    program("run", scene, "-o", tmp_path / "second", "--from", start)
+    whole, first, second = (Run(tmp_path / name).history for name in ("whole", "first", "second"))
+    found = joined(first, second)
+    assert list(found) == list(whole) and found.rows == whole.rows and second["floor.work"][0] == 0.0
+    for name in whole:
+        assert np.allclose(found[name], whole[name], rtol=1e-9, atol=1e-12 * np.abs(whole[name]).max()), name
+    assert found.unit_of("support") == "N"
+    with pytest.raises(ResultError, match=r"begins at a time of the one before, up to 0\.02 s, found 0 s"):
+        joined(second, first)
+
+
+def test_a_section_of_a_grid_shows_the_cells_that_a_plane_cuts(falling):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import section
+
+    numbers = np.arange(24, dtype="<f8")  # along x first, then y, then z
+    data = base64.b64encode(np.uint64(numbers.nbytes).tobytes() + numbers.tobytes()).decode()
+    frame = falling.frames[0]
+    (frame.folder / f"grid_air_{frame.number:06}.vti").write_text(
+        f'<VTKFile type="ImageData"><ImageData WholeExtent="0 4 0 3 0 2" Origin="0 0 0" Spacing="1 1 2"><Piece>'
+        "<CellData>"
+        f'<DataArray type="Float64" Name="density">{data}</DataArray></CellData></Piece></ImageData></VTKFile>'
+    )
+    drawn = section(frame, "air", view="y", at=0.99).axes[0]
+    assert drawn.collections[0].get_array().ravel().tolist() == [8.0, 9.0, 10.0, 11.0, 20.0, 21.0, 22.0, 23.0]
+    with pytest.raises(ResultError, match="expected view x, y or z"):
+        section(frame, "air", view="w")
+
+
+def test_a_frame_is_a_page_that_stands_alone(folder, tmp_path):
+    pytest.importorskip("trame_pyvista")
+    from cograin.view import main
+
+    assert main([str(folder), "-o", str(tmp_path / "view.html"), "--time", "0.01"]) == 0
+    page = (tmp_path / "view.html").read_text()
+    assert len(page) > 1e5 and "<script src=" not in page
+
+
 def test_a_bed_at_rest_is_not_coloured_by_its_rounding():
-    from cograin.plot import _still
+    from cograin.plot.values import ends, still
     from cograin.results import Cloud
 
-    bed = Cloud(np.zeros((3, 3)), {"radius": np.full(3, 1e-3)})
-    assert _still(bed, 2.0) == 5e-6 and _still(bed, 0.0) == 0.0
+    bed = Cloud(np.zeros((3, 3)), {"radius": np.full(3, 1e-3), "mass": np.full(3, 1e-5)})
+    assert still(bed, 2.0)["velocity"] == 5e-6 and still(bed, 0.0) == {}
+    assert ends(bed, "velocity", np.array([1e-12, 2e-12, 3e-12]), 2.0) == (1e-12, 5e-6)
+    assert ends(bed, "force", np.array([1e-16, 2e-16, 3e-16]), 2.0)[1] == pytest.approx(2.5e-11)
+    assert ends(bed, "temperature", np.array([300.0, 300.0, 301.0]), 2.0)[1] == pytest.approx(300.98)
+
+
+FALLING = """
+gravity = [0.0, 0.0, -10.0]
+[run]
+end = 0.004
+step = 1.0e-5
+[material.s]
+density = 2500.0
+[pair.s.s]
+normal_stiffness = 1.0e4
+normal_damping = 0.0
+[contact.touch.normal.hooke_stiffness]
+[clump.rod]
+spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.01 }, { position = [0.01, 0.0, 0.0], radius = 0.01 }]
+[particles.balls]
+material = "s"
+list = [{ position = [0.0, 0.0, 0.1], radius = 0.01 }]
+[particles.rods]
+material = "s"
+clump = "rod"
+list = [{ position = [0.06, 0.0, 0.1], radius = 0.01 }]
+[boundary.tube]
+cylinder = { from = [0.0, 0.0, -0.1], to = [0.0, 0.0, 0.2], radius = 0.1 }
+material = "s"
+[output]
+frame_interval = 1.0e-3
+boundaries = true
+"""
+
+
+@pytest.fixture(scope="module")
+def falling(program, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("falling")
+    (folder / "scene.toml").write_text(FALLING)
+    program("run", folder / "scene.toml", "-o", folder / "out")
+    return Run(folder / "out")
+
+
+def test_a_force_means_the_same_on_a_sphere_and_on_a_clump(falling):
+    from cograin.plot.values import values
+
+    frame = falling.frames[-1]
+    ball, *rods = values(frame, frame.particles, "force")
+    # Nothing but weight acts: that of the ball, and that of the whole rod on both of its spheres.
+    assert ball == pytest.approx(10.0 * frame.particles["mass"][0])
+    assert rods == pytest.approx([10.0 * frame.clumps["mass"][0]] * 2)
+
+
+def test_a_slice_has_the_particles_that_it_cuts_and_the_walls(falling):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import packing
+
+    frame = falling.frames[-1]
+    circles, lines = (
+        packing(frame, "radius", "z", at=float(frame.particles.points[0, 2]) + 0.006).axes[0].collections[::-1]
+    )
+    assert circles.get_offsets().shape == (3, 2)
+    assert circles.get_widths()[0] == pytest.approx(2.0 * 0.008)
+    places = np.concatenate(lines.get_segments())
+    assert np.hypot(*places.T) == pytest.approx(np.full(len(places), 0.1), rel=0.02)
+    assert len(packing(frame, "radius", "z", at=0.19).axes[0].collections) == 1, "walls alone"
+
+
+def test_columns_time_names_and_format_are_chosen(falling, folder, tmp_path):
+    pytest.importorskip("matplotlib")
+    from cograin.plot import history, main, packing
+
+    drawn = history(Run(folder).history, ["floor.force.z", "energy.kinetic"], over="floor.work")
+    assert [panel.get_xlabel().split(" [")[0] for panel in drawn.axes] == ["", "floor.work"]
+    words = ["--columns", "floor.force.z", "--over", "floor.work", "--format", "svg"]
+    assert main([str(folder), "-o", str(tmp_path), *words]) == 0
+    assert (tmp_path / "over_floor.work.svg").read_text().startswith("<?xml")
+    assert main([str(folder), "-o", str(tmp_path), "--columns", "floor.forze.z"]) == 2
+    assert falling.frame_at(0.0024).time == 0.002
+    legend = packing(falling.frames[0], "set", names={0: "balls", 1: "rods"}).axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["balls", "rods"]
+    words = ["--time", "0.002", "--by", "set", "--names", "balls", "rods", "--slice", "0.0"]
+    assert main([str(falling.folder), "-o", str(tmp_path / "chosen"), *words]) == 0
+    assert not (tmp_path / "chosen" / "animation.gif").exists()
+    assert main([str(falling.folder), "-o", str(tmp_path / "no"), "--by", "colour"]) == 2
+
+
+def test_temperatures_that_differ_by_little_are_told_apart():
+    from cograin.plot.space import _base
+
+    assert [_base(*ends) for ends in ((300.0001, 300.002), (0.0, 1.0), (300.0, 420.0), (5.0, 5.0))] == [300, 0, 0, 0]

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 import pytest
+from conftest import DROP
 
 from cograin import StepDiscarded, Unit, UnitError
 
@@ -37,6 +38,29 @@ def test_whole_variables_come_as_whole_numbers_and_arrays_as_arrays(drop):
     assert values.tolist() == [0.0, 0.0]
     with pytest.raises(UnitError, match="a Real is needed"):
         drop.get(["contacts.count"])
+
+
+def test_cells_of_a_grid_are_arrays(opened):
+    grid = """
+[grid.shaft]
+box = [[-0.05, -0.05, 0.0], [0.05, 0.05, 0.2]]
+counts = [1, 2, 4]
+outputs = ["porosity", "velocity", "stress", "count"]
+"""
+    unit = opened(DROP + grid)
+    cells = unit.cells("shaft")
+    assert repr(cells) == "<8 cells of shaft: porosity, velocity, stress, count>"
+    assert cells.centres[3] == pytest.approx([0.0, 0.025, 0.075]) and cells.volumes == pytest.approx(np.full(8, 2.5e-4))
+    unit.step(1e-3)
+    solid = ((1.0 - cells["porosity"]) * cells.volumes).sum()
+    assert solid == pytest.approx(4.0 / 3.0 * np.pi * 0.05**3, rel=1e-14)
+    assert cells["velocity"].shape == (8, 3) and cells["velocity"][:, 2].min() == pytest.approx(-9.81e-3)
+    assert cells["stress"].shape == (8, 6) and cells.components("stress") == ("xx", "yy", "zz", "xy", "xz", "yz")
+    assert cells["count"].tolist() == [0, 0, 0, 1, 0, 0, 0, 0]
+    with pytest.raises(KeyError, match="expected one of porosity, velocity, stress, count, found heat"):
+        cells["heat"]
+    with pytest.raises(UnitError, match="expected a grid of the unit, found bed; it has shaft"):
+        unit.cells("bed")
 
 
 def test_a_refused_value_changes_nothing_and_says_why(drop):

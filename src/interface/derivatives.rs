@@ -60,7 +60,7 @@ impl Interface {
     ) -> Result<Vec<f64>, InterfaceError> {
         for &index in outputs {
             if !self.is_continuous_output(index) {
-                return Err(InterfaceError::NoDerivative { index, name: self.variable(index)?.name.clone() });
+                return Err(InterfaceError::NoDerivative { name: self.variable(index)?.name.clone() });
             }
         }
         let mut inputs = Vec::new();
@@ -68,7 +68,7 @@ impl Interface {
             let input = self.input_of(index)?;
             if !share.is_finite() {
                 let name = self.variables[index].name.clone();
-                return Err(InterfaceError::NotFinite { index, name, value: share });
+                return Err(InterfaceError::NotFinite { name, value: share });
             }
             inputs.push(input);
         }
@@ -93,7 +93,7 @@ impl Interface {
         let change = |&index: &usize| {
             let value = factor * known.found[place].of(index).unwrap_or(f64::NAN);
             let name = || self.variables[index].name.clone();
-            if value.is_finite() { Ok(value) } else { Err(InterfaceError::NotKnown { index, name: name() }) }
+            if value.is_finite() { Ok(value) } else { Err(InterfaceError::NotKnown { name: name() }) }
         };
         outputs.iter().map(change).collect()
     }
@@ -121,7 +121,7 @@ impl Interface {
         let variable = self.variable(output)?;
         match rate_of(variable) {
             Some((rate, at)) => Ok(rate(simulation.state(), at)),
-            None => Err(InterfaceError::NoOutputRate { index: output, name: variable.name.clone() }),
+            None => Err(InterfaceError::NoOutputRate { name: variable.name.clone() }),
         }
     }
 
@@ -130,7 +130,7 @@ impl Interface {
         let variable = self.variable(index)?;
         match &variable.source {
             Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => Ok((write.input)(*at)),
-            _ => Err(InterfaceError::NoInput { index, name: variable.name.clone() }),
+            _ => Err(InterfaceError::NoInput { name: variable.name.clone() }),
         }
     }
 }

@@ -14,81 +14,63 @@ pub enum InterfaceError {
         last: usize,
     },
     /// It is neither input nor parameter.
-    #[error("{index} is an output ({name}); only inputs and parameters may be set")]
+    #[error("{name} is an output; only inputs and parameters may be set")]
     Output {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
     /// A parameter does not take the value.
-    #[error("{index} ({name}): {refusal}")]
+    #[error("{name}: {refusal}")]
     Range {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
         /// What was found and what was expected, as the scene says it.
         refusal: String,
     },
     /// A parameter is not an input.
-    #[error("{index} is a parameter ({name}); only inputs have rates")]
+    #[error("{name} is a parameter; only inputs have rates")]
     NoRate {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
     /// An input that has no second derivative.
     #[error(
-        "{index} ({name}): expected order 1, or the displacement along an axis of a boundary with input = \
+        "{name}: expected order 1, or the displacement along an axis of a boundary with input = \
          \"quadratic\", found order 2"
     )]
     NoAcceleration {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
     /// A parameter that can no longer be changed.
-    #[error("{index} ({name}) is a fixed parameter; it may be set until fmi2ExitInitializationMode")]
+    #[error("{name} is a fixed parameter; it may be set until the initialisation mode ends")]
     Fixed {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
     /// A derivative of what is not a continuous output.
-    #[error("expected an output that changes continuously, found {index} ({name}), which has no derivative")]
+    #[error("expected an output that changes continuously, found {name}, which has no derivative")]
     NoDerivative {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
     /// A derivative with respect to what is not an input.
-    #[error("expected an input to take derivatives by, found {index} ({name})")]
+    #[error("expected an input to take derivatives by, found {name}")]
     NoInput {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
     /// A derivative that is no number.
-    #[error("{index} ({name}): expected a number with and without displaced inputs, found none")]
+    #[error("{name}: expected a number with and without displaced inputs, found none")]
     NotKnown {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
     /// The rate of an output that has none.
     #[error(
-        "expected force, moment, mean_force, mean_moment or displacement of a boundary, found {index} ({name}), which has no rate"
+        "expected force, moment, mean_force, mean_moment or displacement of a boundary, found {name}, which has no rate"
     )]
     NoOutputRate {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
     },
@@ -99,10 +81,8 @@ pub enum InterfaceError {
     #[error(transparent)]
     Tune(#[from] TuneError),
     /// The value is not a finite number.
-    #[error("{index} ({name}): expected a finite number, found {value}")]
+    #[error("{name}: expected a finite number, found {value}")]
     NotFinite {
-        /// Its index.
-        index: usize,
         /// Its name.
         name: String,
         /// The value given.

@@ -3,6 +3,7 @@
 //! Forces and moments are those *of the particles on the boundary*; moments are taken about the boundary's
 //! moved reference point. Reading a variable changes nothing; setting one is checked first.
 
+mod arrays;
 mod chosen;
 mod derivatives;
 mod error;
@@ -12,15 +13,18 @@ mod parameters;
 mod quantity;
 mod reader;
 mod rows;
+mod standard;
 mod texts;
 mod writing;
 
+pub use arrays::Array;
 pub use chosen::{ChosenError, MOST_COLUMNS};
 pub use derivatives::Derivatives;
 pub use error::InterfaceError;
 pub use findings::Findings;
 pub use quantity::{Quantity, Type};
 pub use rows::{Field, fields};
+pub use standard::Standard;
 pub use texts::FRAMES;
 
 use crate::engine::simulation::Simulation;

@@ -15,7 +15,7 @@ pub struct BaseUnits {
     pub radian: i32,
 }
 
-/// The type of a variable, as FMI has it.
+/// The type of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Type {
     /// A real number.
@@ -24,17 +24,6 @@ pub enum Type {
     Integer,
     /// A text.
     String,
-}
-
-impl Type {
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Real => "Real",
-            Self::Integer => "Integer",
-            Self::String => "String",
-        }
-    }
 }
 
 /// Declares the quantities: name, symbol of the unit, exponents of kilogram, metre, second and radian, and of the

@@ -11,18 +11,18 @@ impl Interface {
     pub fn check(&self, index: usize, value: f64) -> Result<(), InterfaceError> {
         let variable = self.variable(index)?;
         if variable.causality == Causality::Output {
-            return Err(InterfaceError::Output { index, name: variable.name.clone() });
+            return Err(InterfaceError::Output { name: variable.name.clone() });
         }
         if let Source::Parameter(parameter) = &variable.source
             && let Err(refusal) = parameter.range.check(value)
         {
-            return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
+            return Err(InterfaceError::Range { name: variable.name.clone(), refusal });
         }
-        is_finite(variable, index, value)?;
+        is_finite(variable, value)?;
         if variable.minimum.is_some_and(|minimum| value < minimum) {
             let refusal =
                 format!("expected a number of {:?} or above, found {value:?}", variable.minimum.unwrap_or(0.0));
-            return Err(InterfaceError::Range { index, name: variable.name.clone(), refusal });
+            return Err(InterfaceError::Range { name: variable.name.clone(), refusal });
         }
         Ok(())
     }
@@ -46,7 +46,7 @@ impl Interface {
             self.check(index, value)?;
             if let Source::Parameter(parameter) = &self.variables[index].source {
                 let name = || self.variables[index].name.clone();
-                let place = parameter.tunable.ok_or_else(|| InterfaceError::Fixed { index, name: name() })?;
+                let place = parameter.tunable.ok_or_else(|| InterfaceError::Fixed { name: name() })?;
                 changes.push((place, value));
             }
         }
@@ -68,9 +68,9 @@ impl Interface {
     pub fn check_rate(&self, index: usize, rate: f64) -> Result<(), InterfaceError> {
         let variable = self.variable(index)?;
         match variable.causality {
-            Causality::Parameter => Err(InterfaceError::NoRate { index, name: variable.name.clone() }),
+            Causality::Parameter => Err(InterfaceError::NoRate { name: variable.name.clone() }),
             Causality::Output => self.check(index, rate),
-            Causality::Input => is_finite(variable, index, rate),
+            Causality::Input => is_finite(variable, rate),
         }
     }
 
@@ -106,13 +106,13 @@ impl Interface {
             let boundary = &scene.boundaries[boundary.index()];
             boundary.input == InputCourse::Quadratic && axis < 3 && boundary.axes[axis].takes_place()
         };
-        let refused = || InterfaceError::NoAcceleration { index, name: variable.name.clone() };
+        let refused = || InterfaceError::NoAcceleration { name: variable.name.clone() };
         axis.filter(quadratic).ok_or_else(refused)
     }
 }
 
 /// Whether a value for a variable is a finite number.
-fn is_finite(variable: &Variable, index: usize, value: f64) -> Result<(), InterfaceError> {
-    let refused = || InterfaceError::NotFinite { index, name: variable.name.clone(), value };
+fn is_finite(variable: &Variable, value: f64) -> Result<(), InterfaceError> {
+    let refused = || InterfaceError::NotFinite { name: variable.name.clone(), value };
     if value.is_finite() { Ok(()) } else { Err(refused()) }
 }

@@ -57,6 +57,10 @@ FORCES = {"force": 1e5, "moment": 1e2}
 
 def given(name, displacement):
     """What an input is given where inputs of displacement are given this one [m]: others in proportion."""
+    if name.endswith(".temperature"):
+        return 300.0 + 1e6 * displacement
+    if name.endswith(".applied_heat"):
+        return 1e3 * displacement
     if name.endswith(".rate"):
         return abs(displacement)  # nothing is fed backwards
     return displacement * FORCES.get(name.split(".")[-2].split("_")[-1], 1.0)
@@ -82,6 +86,8 @@ COURSES = {
     "piston_load": Course(interval=1e-4, steps=20),
     "triaxial": Course(interval=2e-5, steps=20),
     "drum": Course(interval=1e-3, steps=20),
+    "drum_heat": Course(interval=1e-3, steps=20),
+    "heated_plate": Course(interval=3e-3, steps=20),
     "hopper": Course(interval=1e-3, steps=40),  # the first grains reach the gate after 31 ms
     "plate": Course(interval=1e-4, steps=4),
     "wheel": Course(interval=1e-3, steps=20),

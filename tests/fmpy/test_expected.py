@@ -43,7 +43,7 @@ def test_the_piston_gives_its_expected_numbers(unit, tmp_path):
     compare(table(result), table(folder / "expected.csv"), 1e-9)
 
 
-@pytest.mark.parametrize("name", ["piston_load", "triaxial", "wheel", "pile_and_probe"])
+@pytest.mark.parametrize("name", ["piston_load", "triaxial", "wheel", "pile_and_probe", "chute_wear"])
 def test_a_model_that_runs_by_itself_begins_as_expected(cograin, name, tmp_path):
     folder = ROOT / "models" / name
     expected = table(folder / "expected.csv")
@@ -63,6 +63,39 @@ def test_the_drum_begins_as_expected_and_its_energy_book_closes(request, tmp_pat
     compare((names, rows[3::4][: len(expected)]), (expected_names, expected), 1e-6)
     residual, kinetic = (np.abs(rows[:, names.index(f"energy.{name}")]).max() for name in ("residual", "kinetic"))
     assert residual < 1e-12 * kinetic, f"{residual:.1e} J of {kinetic:.1e} J"
+
+
+def test_the_warm_drum_begins_as_expected_and_its_heat_is_what_it_lost(request, tmp_path):
+    folder = ROOT / "models" / "drum_heat"
+    program = ROOT / request.config.getoption("--program")
+    command = [sys.executable, folder / "couple.py", "--program", program, "--output", tmp_path]
+    done = subprocess.run([*command, "--end", "0.1", "--no-picture"], check=True, capture_output=True, text=True)
+    names, rows = table(tmp_path / "couple.csv")
+    expected_names, expected = table(folder / "expected.csv")
+    compare((names, rows[4::4][: len(expected)]), (expected_names, expected), 1e-6)
+    last = dict(zip(names, rows[-1], strict=True))
+    warming = ("normal_damping", "tangential_damping", "sliding", "rolling")
+    lost = sum(last[f"energy.lost.{cause}"] for cause in warming)
+    assert lost > 1e-5 and abs(last["energy.heat"] + last["drum.heat"] - lost) < 1e-12 * lost
+    left = float(done.stdout.rsplit("what is left", 1)[1].split()[0])
+    assert abs(left) < 1e-6 * lost, done.stdout
+
+
+def test_the_heated_plate_begins_as_expected_and_no_heat_is_lost(request, tmp_path):
+    folder = ROOT / "models" / "heated_plate"
+    program = ROOT / request.config.getoption("--program")
+    command = [sys.executable, folder / "couple.py", "--program", program, "--output", tmp_path]
+    subprocess.run([*command, "--end", "0.2", "--no-picture"], check=True, capture_output=True)
+    names, rows = table(tmp_path / "couple.csv")
+    expected_names, expected = table(folder / "expected.csv")
+    # The plate's factorisation is the machine's own, to rounding.
+    compare((names, rows[1::2][: len(expected)]), (expected_names, expected), 1e-6)
+    last = dict(zip(names, rows[-1], strict=True))
+    exchanged = np.abs(rows[:, names.index("plate.mean_heat_flow")] * rows[:, names.index("length")]).sum()
+    given = -(rows[:, names.index("plate.mean_heat_flow")] * rows[:, names.index("length")]).sum()
+    assert exchanged > 0.1 and abs(last["energy.heat"] - given) < 1e-12 * exchanged
+    left = last["heater"] - last["stored"] - last["left"] - last["energy.heat"]
+    assert abs(left) < 1e-11 * last["heater"], f"{left:.1e} J"
 
 
 def test_the_loaded_beam_begins_as_expected(request, tmp_path):

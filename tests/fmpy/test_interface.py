@@ -16,6 +16,8 @@ def boundaries(slave):
     """The boundaries of a unit that are led by displacements, each with its inputs, those of nodes too."""
     inputs = {}
     for name in slave.inputs:
+        if name.endswith((".temperature", ".applied_heat")):
+            continue
         boundary, *_, quantity, _ = name.split(".") if not name.endswith(".rate") else (None, "rate", None)
         if quantity in ("applied_force", "applied_moment", "target_force", "rate"):
             continue

@@ -52,8 +52,9 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     settings = config_settings or {}
     named = settings.get("program") or os.environ.get("COGRAIN_PROGRAM")
     program, library = built_before(Path(named)) if named else built_now()
-    package = [path for path in sorted((ROOT / "python/cograin").iterdir()) if path.is_file()]
-    files = {f"cograin/{path.name}": path.read_bytes() for path in package}
+    python = ROOT / "python"
+    package = [path for path in sorted(python.glob("cograin/**/*")) if path.is_file() and path.suffix != ".pyc"]
+    files = {path.relative_to(python).as_posix(): path.read_bytes() for path in package}
     programs = {
         f"{NAME}.data/scripts/{program.name}": program.read_bytes(),
         f"{NAME}.data/data/lib/cograin/{library.name}": library.read_bytes(),

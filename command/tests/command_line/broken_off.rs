@@ -17,7 +17,7 @@ fn broken_and_whole(place: &Place, stop: impl FnOnce(Child)) -> (PathBuf, PathBu
 }
 
 /// The same for a scene of its own, which writes more than seventeen rows.
-fn break_off(place: &Place, scene: &Path, stop: impl FnOnce(Child)) -> (PathBuf, PathBuf) {
+pub(crate) fn break_off(place: &Place, scene: &Path, stop: impl FnOnce(Child)) -> (PathBuf, PathBuf) {
     let (broken, whole) = (place.at("broken"), place.at("whole"));
     // A test that runs in the background may have inherited that interruptions are ignored.
     let mut command = Command::new("env");

@@ -9,6 +9,7 @@ mod faults;
 mod folders;
 mod ground;
 mod hostile;
+mod impacts;
 mod inputs;
 mod protocols;
 mod read_back;

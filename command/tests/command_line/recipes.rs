@@ -4,7 +4,7 @@ use crate::ground::{Place, cograin, complaint};
 use std::fs;
 
 /// Ends that the recipes are run to here \[s\]: some time steps of each.
-const ENDS: [(&str, &str); 13] = [
+const ENDS: [(&str, &str); 15] = [
     ("drop", "1e-3"),
     ("oedometer", "2e-4"),
     ("triaxial", "4e-5"),
@@ -15,9 +15,11 @@ const ENDS: [(&str, &str); 13] = [
     ("rock_core", "2e-6"),
     ("plate", "5e-4"),
     ("loaded_beam", "4e-4"),
+    ("fluid", "4e-4"),
     ("heat", "1e-3"),
     ("clumps", "4e-4"),
     ("tablets", "4e-4"),
+    ("mill", "4e-4"),
 ];
 
 /// Names of the recipes, as the program lists them.

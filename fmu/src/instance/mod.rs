@@ -1,4 +1,4 @@
-//! One instance of the unit: the functions of FMI 2.0 in safe Rust.
+//! One instance of the unit: what the functions of FMI do, in safe Rust.
 
 mod states;
 mod values;
@@ -10,13 +10,14 @@ use crate::refusal::Refusal;
 use crate::saved::{Course, Saved};
 use crate::types::Status;
 use cograin::export::{ResourceError, identity, read_resources};
-use cograin::interface::{Derivatives, Findings, Interface, Value};
+use cograin::interface::{Derivatives, Findings, Interface, Standard, Value};
 use cograin::scene::{Models, Scene, SceneErrors, Source};
 use cograin::simulation::{Description, RunError, Simulation};
 use cograin::state::State;
 use cograin::state::snapshot::SnapshotError;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -52,10 +53,12 @@ pub(crate) enum StartError {
     Resources(#[from] ResourceError),
     /// Description and resources do not belong together.
     #[error(
-        "fmuGUID: expected {expected}, that of the resources with this library, found {given}; take the \
+        "{argument}: expected {expected}, that of the resources with this library, found {given}; take the \
          description, resources and library of one export"
     )]
     Identity {
+        /// The argument.
+        argument: &'static str,
         /// The GUID given.
         given: String,
         /// That of the resources.
@@ -74,18 +77,42 @@ pub(crate) enum StartError {
 
 /// What the host says when it makes an instance.
 pub(crate) struct Request {
+    /// The edition of the standard that it speaks.
+    pub(crate) standard: Standard,
     /// Name of the instance.
     pub(crate) name: Option<String>,
     /// Kind of unit.
     pub(crate) kind: i32,
     /// GUID of the description that the host has read.
     pub(crate) identity: Option<String>,
-    /// Where the resources are.
+    /// Where the resources are: a URI in FMI 2.0, a path in FMI 3.0.
     pub(crate) location: Option<String>,
+}
+
+impl Request {
+    /// What the standard calls the identity and the location, and what it expects of the location.
+    fn arguments(&self) -> [&'static str; 3] {
+        match self.standard {
+            Standard::Fmi2 => ["fmuGUID", "fmuResourceLocation", "a file: URI of the resources folder"],
+            Standard::Fmi3 => ["instantiationToken", "resourcePath", "the path of the resources folder"],
+        }
+    }
+
+    /// The folder of the resources.
+    fn folder(&self) -> Result<PathBuf, StartError> {
+        let [_, argument, expected] = self.arguments();
+        let location = self.location.as_ref().ok_or(StartError::Missing { argument, expected })?;
+        match self.standard {
+            Standard::Fmi2 => Ok(location::path_of(location)?),
+            Standard::Fmi3 => Ok(PathBuf::from(location)),
+        }
+    }
 }
 
 /// What an instance is made of, which never changes.
 struct Unit {
+    /// The edition of the standard that the host speaks.
+    standard: Standard,
     /// The scene.
     scene: Arc<Scene>,
     /// The sub-models that it may name.
@@ -110,18 +137,19 @@ impl Unit {
         if request.kind != crate::types::CO_SIMULATION {
             return Err(StartError::Type { found: request.kind });
         }
-        let given = request.identity.as_ref().ok_or_else(|| missing("fmuGUID", "the guid of modelDescription.xml"))?;
-        let location = request.location.as_ref();
-        let location = location.ok_or_else(|| missing("fmuResourceLocation", "a file: URI of the resources folder"))?;
-        let contents = read_resources(&location::path_of(location)?)?;
+        let [argument, ..] = request.arguments();
+        let identified = request.identity.as_ref();
+        let given = identified.ok_or_else(|| missing(argument, "the identity that modelDescription.xml tells"))?;
+        let contents = read_resources(&request.folder()?)?;
         let expected = identity(&contents.source, contents.state.as_deref());
         if *given != expected {
-            return Err(StartError::Identity { given: given.clone(), expected });
+            return Err(StartError::Identity { argument, given: given.clone(), expected });
         }
         let scene = models.scene(&contents.source, &[])?;
         let start = contents.state.map(|bytes| State::from_bytes(&bytes, scene.fingerprint)).transpose()?;
         let (interface, source) = (Interface::of(&scene), contents.source);
-        Ok(Self { interface, scene: Arc::new(scene), models, source, start, identity: expected })
+        let standard = request.standard;
+        Ok(Self { standard, interface, scene: Arc::new(scene), models, source, start, identity: expected })
     }
 
     /// A simulation at its beginning, with these values of parameters.
@@ -174,6 +202,8 @@ struct SavedState {
 pub(crate) struct Instance {
     /// What it is made of.
     unit: Unit,
+    /// Where the elements of the variables of FMI 3.0 stand.
+    places: values::Places,
     /// The scene in motion.
     simulation: Simulation,
     /// The state that it began in, if it was not the scene's own.
@@ -207,6 +237,7 @@ impl Instance {
         let stop = Arc::<AtomicBool>::default();
         let frames = Frames::of(&unit.interface);
         let mut instance = Self {
+            places: Self::places(&unit),
             unit,
             simulation,
             start,

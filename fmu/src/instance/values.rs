@@ -5,42 +5,93 @@ use crate::calls::Phase;
 use crate::host_memory::Items;
 use crate::refusal::Refusal;
 use crate::types::Reference;
-use cograin::interface::{Causality, InterfaceError, Type, Value, Variable};
+use cograin::interface::{Causality, InterfaceError, Standard, Type, Value, Variable};
 use std::ffi::{CStr, CString};
+use std::ops::Range;
+use std::sync::Arc;
+
+/// Where the elements of the variables of FMI 3.0 stand in the table, by their value references: from a place to the next one. The
+/// last variable is the time, which stands behind the table.
+pub(super) type Places = Arc<[usize]>;
 
 impl Instance {
-    /// The variable with a reference, if it is of the type that the function is for.
-    fn variable(&self, reference: Reference, expected: &'static str) -> Result<(usize, &Variable), Refusal> {
-        let index = reference as usize;
+    /// Places of the variables of FMI 3.0.
+    pub(super) fn places(unit: &super::Unit) -> Places {
+        if unit.standard == Standard::Fmi2 {
+            return Places::default();
+        }
+        let behind = unit.interface.variables().len();
+        let arrays = unit.interface.arrays(&unit.scene);
+        arrays.iter().map(|array| array.first).chain([behind, behind + 1]).collect()
+    }
+
+    /// Indices of the elements of a variable of FMI 3.0.
+    pub(crate) fn elements_of(&self, reference: Reference) -> Result<Range<usize>, Refusal> {
+        let place = reference as usize;
+        match self.places.get(place..place + 2) {
+            Some(&[first, next]) => Ok(first..next),
+            _ => Err(Refusal::Reference { reference, last: self.places.len().saturating_sub(2) }),
+        }
+    }
+
+    /// The same of several, array after array.
+    pub(crate) fn elements(
+        &self,
+        references: Items<Reference>,
+    ) -> Result<impl Iterator<Item = usize> + Clone + use<>, Refusal> {
+        for reference in references.iter() {
+            self.elements_of(reference)?;
+        }
+        let places = Arc::clone(&self.places);
+        Ok(references.iter().flat_map(move |reference| places[reference as usize]..places[reference as usize + 1]))
+    }
+
+    /// Whether an index is that of the time.
+    fn is_time(&self, index: usize) -> bool {
+        self.unit.standard == Standard::Fmi3 && index == self.unit.interface.variables().len()
+    }
+
+    /// The variable at an index, if it is of the type that the function is for.
+    fn variable(&self, index: usize, expected: &'static str) -> Result<&Variable, Refusal> {
+        if self.is_time(index) {
+            return Err(Refusal::Independent { expected });
+        }
         let variable = self.unit.interface.variable(index)?;
-        let found = variable.quantity.of_type().name();
+        let found = variable.quantity.of_type().name(self.unit.standard);
         if found == expected {
-            Ok((index, variable))
+            Ok(variable)
         } else {
-            Err(Refusal::Type { reference, name: variable.name.clone(), found, expected })
+            Err(Refusal::Type { name: variable.name.clone(), found, expected })
         }
     }
 
     /// Values of variables of one type.
-    pub(crate) fn values(&mut self, references: Items<Reference>, kind: &'static str) -> Result<&[Value], Refusal> {
+    pub(crate) fn values(
+        &mut self,
+        indices: impl Iterator<Item = usize> + Clone,
+        kind: &'static str,
+    ) -> Result<&[Value], Refusal> {
+        let wanted = [Type::Real, Type::Integer].into_iter().find(|known| known.name(self.unit.standard) == kind);
         if !self.course.placed {
-            for reference in references.iter() {
-                self.variable(reference, kind)?;
+            for index in indices.clone().filter(|index| !self.is_time(*index)) {
+                self.variable(index, kind)?;
             }
             self.place()?;
         }
-        let wanted = [Type::Real, Type::Integer].into_iter().find(|known| known.name() == kind);
         let mut values = std::mem::take(&mut self.values);
         values.clear();
-        for reference in references.iter() {
-            let index = reference as usize;
+        for index in indices {
             if wanted.is_none() || self.unit.interface.type_of(index) != wanted {
-                self.variable(reference, kind)?;
+                if self.is_time(index) && wanted == Some(Type::Real) {
+                    values.push(Value::Real(self.time()));
+                    continue;
+                }
+                self.variable(index, kind)?;
             }
             let value = self.unit.interface.value_with(&self.simulation, &self.findings, index);
             if !value.number().is_finite() {
                 let name = self.unit.interface.variables()[index].name.clone();
-                return Err(Refusal::NoNumber { reference, name, value: value.number() });
+                return Err(Refusal::NoNumber { name, value: value.number() });
             }
             values.push(value);
         }
@@ -48,17 +99,17 @@ impl Instance {
         Ok(&self.values)
     }
 
-    /// `fmi2SetReal` and `fmi2SetInteger`: all or nothing.
+    /// Sets numbers: all or nothing.
     pub(crate) fn set<T: Copy + Into<f64>>(
         &mut self,
-        references: Items<Reference>,
+        indices: impl Iterator<Item = usize> + Clone,
         values: Items<T>,
         kind: &'static str,
     ) -> Result<(), Refusal> {
         let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
         let mut tuned = Vec::new();
-        for (reference, value) in references.iter().zip(values.iter()) {
-            let (index, variable) = self.variable(reference, kind)?;
+        for (index, value) in indices.clone().zip(values.iter()) {
+            let variable = self.variable(index, kind)?;
             self.unit.interface.check(index, value.into())?;
             if variable.causality == Causality::Parameter && !starting {
                 tuned.push((index, value.into()));
@@ -69,8 +120,8 @@ impl Instance {
             self.unit.interface.tune(&mut self.simulation, &tuned)?;
             self.changed();
         }
-        for (reference, value) in references.iter().zip(values.iter()) {
-            let (index, value) = (reference as usize, value.into());
+        for (index, value) in indices.zip(values.iter()) {
+            let value = value.into();
             if starting {
                 self.course.placed = false;
                 self.give(index, value);
@@ -90,36 +141,35 @@ impl Instance {
         }
     }
 
-    /// `fmi2GetString`
-    pub(crate) fn texts(&self, references: Items<Reference>) -> Result<Vec<&CStr>, Refusal> {
-        let text = |reference| self.variable(reference, "String").map(|(index, _)| self.frames.text(index));
-        references.iter().map(text).collect()
+    /// Texts of variables.
+    pub(crate) fn texts(&self, indices: impl Iterator<Item = usize>) -> Result<Vec<&CStr>, Refusal> {
+        let text = |index| self.variable(index, "String").map(|_| self.frames.text(index));
+        indices.map(text).collect()
     }
 
     /// Whether all of these are texts that may be set now.
-    pub(crate) fn check_texts(&self, references: Items<Reference>) -> Result<(), Refusal> {
+    pub(crate) fn check_texts(&self, indices: impl Iterator<Item = usize>) -> Result<(), Refusal> {
         let starting = matches!(self.course.phase, Phase::Instantiated | Phase::Initialization);
-        for reference in references.iter() {
-            let (index, variable) = self.variable(reference, "String")?;
+        for index in indices {
+            let variable = self.variable(index, "String")?;
             if !starting {
-                return Err(InterfaceError::Fixed { index, name: variable.name.clone() }.into());
+                return Err(InterfaceError::Fixed { name: variable.name.clone() }.into());
             }
         }
         Ok(())
     }
 
-    /// `fmi2SetString`, once the references are checked: all or nothing.
-    pub(crate) fn set_texts(&mut self, references: Items<Reference>, values: Vec<CString>) {
-        for (reference, value) in references.iter().zip(values) {
-            self.frames.set_text(reference as usize, value);
+    /// Sets texts, once they are checked: all or nothing.
+    pub(crate) fn set_texts(&mut self, indices: impl Iterator<Item = usize>, values: Vec<CString>) {
+        for (index, value) in indices.zip(values) {
+            self.frames.set_text(index, value);
         }
     }
 
-    /// The other setters: there are no inputs of these types, so every reference is a wrong one.
-    pub(crate) fn refuse_to_set(&self, references: Items<Reference>, kind: &'static str) -> Result<(), Refusal> {
-        for reference in references.iter() {
-            let (index, _) = self.variable(reference, kind)?;
-            self.unit.interface.check(index, 0.0)?;
+    /// What concerns a type that no variable has: every index is a wrong one.
+    pub(crate) fn refuse_type(&self, indices: impl Iterator<Item = usize>, kind: &'static str) -> Result<(), Refusal> {
+        for index in indices {
+            self.variable(index, kind)?;
         }
         Ok(())
     }
@@ -132,13 +182,14 @@ impl Instance {
         rates: Items<f64>,
     ) -> Result<(), Refusal> {
         for ((reference, order), rate) in references.iter().zip(orders.iter()).zip(rates.iter()) {
-            let (index, variable) = self.variable(reference, "Real")?;
+            let index = reference as usize;
+            let variable = self.variable(index, "Real")?;
             match order {
                 1 => self.unit.interface.check_rate(index, rate)?,
                 2 => drop(self.unit.interface.check_acceleration(&self.unit.scene, index, rate)?),
                 _ => {
                     let expected = "order 1, or order 2 of quadratic motion";
-                    return Err(Refusal::Order { order, expected, reference, name: variable.name.clone() });
+                    return Err(Refusal::Order { order, expected, name: variable.name.clone() });
                 }
             }
         }
@@ -154,32 +205,33 @@ impl Instance {
         Ok(())
     }
 
-    /// `fmi2GetDirectionalDerivative`: change of each unknown, an output, per unit of a direction of inputs.
+    /// Change of each unknown, an output, per unit of a direction of inputs.
     pub(crate) fn directional_derivatives(
         &mut self,
-        unknowns: Items<Reference>,
-        knowns: Items<Reference>,
+        unknowns: impl Iterator<Item = usize>,
+        knowns: impl Iterator<Item = usize>,
         direction: Items<f64>,
     ) -> Result<Vec<f64>, Refusal> {
-        let index = |reference| Ok(self.variable(reference, "Real")?.0);
-        let inputs = knowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
-        let outputs = unknowns.iter().map(index).collect::<Result<Vec<usize>, Refusal>>()?;
+        let real = Type::Real.name(self.unit.standard);
+        let index = |index| self.variable(index, real).map(|_| index);
+        let inputs = knowns.map(index).collect::<Result<Vec<usize>, Refusal>>()?;
+        let outputs = unknowns.map(index).collect::<Result<Vec<usize>, Refusal>>()?;
         let direction: Vec<(usize, f64)> = inputs.into_iter().zip(direction.iter()).collect();
         let Self { unit, simulation, derivatives, .. } = self;
         Ok(unit.interface.derivatives(simulation, derivatives, (&outputs, &direction))?)
     }
 
-    /// `fmi2GetRealOutputDerivatives`: of order 1.
+    /// Derivatives of outputs in time, each of an order: of order 1.
     pub(crate) fn output_derivatives(
         &mut self,
-        references: Items<Reference>,
-        orders: Items<i32>,
+        wanted: impl Iterator<Item = (usize, i32)>,
     ) -> Result<Vec<f64>, Refusal> {
+        let real = Type::Real.name(self.unit.standard);
         let mut rates = Vec::new();
-        for (reference, order) in references.iter().zip(orders.iter()) {
-            let (index, variable) = self.variable(reference, "Real")?;
+        for (index, order) in wanted {
+            let variable = self.variable(index, real)?;
             if order != 1 {
-                return Err(Refusal::Order { order, expected: "order 1", reference, name: variable.name.clone() });
+                return Err(Refusal::Order { order, expected: "order 1", name: variable.name.clone() });
             }
             rates.push(self.unit.interface.rate(&self.simulation, index)?);
         }

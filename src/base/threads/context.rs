@@ -18,6 +18,11 @@ pub(crate) struct Context<'a> {
     pub threads: Option<&'a Threads>,
 }
 
+impl Context<'static> {
+    /// Of work that is too little to be divided.
+    pub(crate) const ALONE: Self = Self { step: 0.0, width: Width::Least, threads: None };
+}
+
 impl Context<'_> {
     /// Does pieces 0 to `count` − 1 of the work, in any order.
     pub(crate) fn each(&self, count: usize, piece: impl Fn(usize) + Sync + Send) {

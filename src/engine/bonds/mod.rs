@@ -252,7 +252,7 @@ impl Pass for BondPass {
 }
 
 impl Stiffness for BondPass {
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, _context: &Context, tell: &mut dyn FnMut(Link)) {
         let (list, particles) = (&state.bonds[self.index], &state.particles);
         for (bond, (&i, &j)) in list.first.iter().zip(&list.second).enumerate() {
             let pair = pair_of(particles, i as usize, j as usize);

@@ -320,7 +320,7 @@ impl Pass for WallBondPass {
 }
 
 impl Stiffness for WallBondPass {
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, _context: &Context, tell: &mut dyn FnMut(Link)) {
         for (bond, &first) in state.bonds[self.index].first.iter().enumerate() {
             let pair = self.pair(state, bond);
             let bodies = (first, None, Some(self.boundary.0));

@@ -4,6 +4,7 @@ use super::Cell;
 use super::deformation::times;
 use crate::base::geometry::lattice::STRAIN_PLACES;
 use crate::base::number::Vector;
+use crate::base::threads::Context;
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::state::cell::{Square, Strains};
 use crate::engine::state::{IMAGE, State};
@@ -84,6 +85,7 @@ impl Cell {
             pass.stiffness(
                 state,
                 &SearchLimits::default(),
+                &Context::ALONE,
                 &mut |Link { first, second, normal, stiffness, .. }| {
                     let Some(second) = second else { return };
                     let [a, b] = [first, second].map(|slot| Vector::from(state.carried_point(slot as usize)));

@@ -7,12 +7,17 @@
 use super::listed::{Bodies, ContactEntries};
 use super::records::Motion;
 use crate::base::number::Vector;
+use crate::base::threads::Context;
 use crate::engine::bodies::RigidBody;
 use crate::engine::bonds::clusters::{self, Clusters};
 use crate::engine::integration::Fields;
 use crate::engine::state::contacts::{TOUCHING, is_suppressed};
 use crate::engine::state::{State, WallContacts};
 use crate::laws::contact::{Contact, Law, MOST_HISTORY};
+use std::ops::Range;
+
+/// Contacts in one piece of work.
+const PIECE: usize = 8192;
 
 /// What rounding may add to a bound, over it.
 const ROUNDING: f64 = 1e-9;
@@ -43,8 +48,22 @@ pub(crate) struct Energies {
     pub held: f64,
 }
 
+impl Energies {
+    /// With those of another part.
+    fn with(self, other: Self) -> Self {
+        Self {
+            impacts: self.impacts + other.impacts,
+            coming: self.coming + other.coming,
+            packed: self.packed + other.packed,
+            held: self.held + other.held,
+        }
+    }
+}
+
 /// What is looked at, and what was found.
 pub(crate) struct Encounters<'a> {
+    /// The threads.
+    context: &'a Context<'a>,
     /// How many contacts each body has, up to 2: particles by slot, behind them the other bodies.
     contacts: Vec<u8>,
     /// Bodies that bonds hold together, where any do.
@@ -85,6 +104,7 @@ impl<'a> Encounters<'a> {
         (speeds, mut contacts): (Vec<f64>, Vec<u8>),
         clusters: Option<&'a Clusters>,
         (whole, time): (bool, f64),
+        context: &'a Context<'a>,
     ) -> Self {
         contacts.clear();
         contacts.resize(clusters::bodies(state), 0);
@@ -112,7 +132,8 @@ impl<'a> Encounters<'a> {
             }
         }
         let acceleration = fields.acceleration(&state.particles);
-        Self { contacts, clusters, fields, bodies, speeds, whole, time, acceleration, energies: Energies::default() }
+        let energies = Energies::default();
+        Self { context, contacts, clusters, fields, bodies, speeds, whole, time, acceleration, energies }
     }
 
     /// The room for the numbers of contacts, for the next look.
@@ -165,7 +186,8 @@ impl<'a> Encounters<'a> {
 
     /// Adds what a contact holds, or will hold.
     pub(crate) fn add(
-        &mut self,
+        &self,
+        energies: &mut Energies,
         meeting: Meetings,
         (law, row, contact): (&Law, &[f64], &Contact),
         state: &State,
@@ -175,17 +197,17 @@ impl<'a> Encounters<'a> {
         // Attraction holds energy below 0.
         let elastic = || law.normal_energy(row, contact, 0.0, &[[0.0; 4]; MOST_HISTORY]).max(0.0);
         match meeting {
-            Meetings::Packed => self.energies.packed += 0.5 * mass * velocity * velocity + elastic(),
+            Meetings::Packed => energies.packed += 0.5 * mass * velocity * velocity + elastic(),
             // What bonds bring to bear on a contact may hold it for good.
             Meetings::Impact if self.is_bonded(state, first) || second.is_some_and(|it| self.is_bonded(state, it)) => {
-                self.energies.impacts += 0.5 * mass * velocity * velocity;
-                self.energies.held += elastic();
+                energies.impacts += 0.5 * mass * velocity * velocity;
+                energies.held += elastic();
             }
             Meetings::Impact => {
                 // What presses the bodies on each other holds back so much of it: at rest, all.
                 let held = mass * self.closing(state, contact, first, second).max(0.0) * overlap;
                 let energy = 0.5 * mass * velocity * velocity + elastic();
-                self.energies.impacts += (energy - held).max(0.0);
+                energies.impacts += (energy - held).max(0.0);
             }
             Meetings::ComingImpact | Meetings::ComingPacked => {
                 let of_surface = |boundary: u32| {
@@ -202,11 +224,7 @@ impl<'a> Encounters<'a> {
                     return;
                 }
                 let energy = mass * (0.5 * closing * closing - acceleration * overlap);
-                let sum = if meeting == Meetings::ComingImpact {
-                    &mut self.energies.impacts
-                } else {
-                    &mut self.energies.coming
-                };
+                let sum = if meeting == Meetings::ComingImpact { &mut energies.impacts } else { &mut energies.coming };
                 *sum += energy.max(0.0);
             }
         }
@@ -231,10 +249,29 @@ impl<'a> Encounters<'a> {
     }
 }
 
-/// Adds the contacts of a list.
-pub(crate) fn of_list(list: &impl ContactEntries, state: &State, found: &mut Encounters) {
+/// Adds the contacts of a list. Sums are taken piece by piece, so that they do not depend on the number of threads.
+pub(crate) fn of_list(list: &(impl ContactEntries + Sync), state: &State, found: &mut Encounters) {
+    let (count, so_far) = (list.kept(state).flags.len(), found.energies);
+    let piece = |piece: usize| {
+        let mut energies = if piece == 0 { so_far } else { Energies::default() };
+        of_entries(list, state, piece * PIECE..((piece + 1) * PIECE).min(count), found, &mut energies);
+        energies
+    };
+    let pieces = count.div_ceil(PIECE).max(1);
+    found.energies = found.context.fold(pieces, piece, Energies::default(), Energies::with);
+}
+
+/// Adds some contacts of a list.
+fn of_entries(
+    list: &impl ContactEntries,
+    state: &State,
+    entries: Range<usize>,
+    found: &Encounters,
+    energies: &mut Energies,
+) {
     let (law, kept) = (list.law(), list.kept(state));
-    for (entry, &flags) in kept.flags.iter().enumerate() {
+    for entry in entries {
+        let flags = kept.flags[entry];
         let bodies @ (first, second, _) = list.bodies(state, entry);
         let Some(meeting) = found.meeting(state, (first, second), || touches(flags)) else { continue };
         let gap = match (meeting, second) {
@@ -242,6 +279,6 @@ pub(crate) fn of_list(list: &impl ContactEntries, state: &State, found: &mut Enc
             _ => f64::INFINITY,
         };
         let Some(met) = list.meet(state, entry, gap, Motion::Present) else { continue };
-        found.add(meeting, (law, met.row, &met.contact), state, bodies);
+        found.add(energies, meeting, (law, met.row, &met.contact), state, bodies);
     }
 }

@@ -3,6 +3,7 @@
 use super::ahead::{Kind, Link, SearchLimits};
 use super::records::{self, ContactRecord, Motion};
 use crate::base::number::Vector;
+use crate::base::threads::{CHUNK, Context};
 use crate::engine::state::contacts::{BONDED, RELEASED, SILENT, SLIDING, TOUCHING, is_told};
 use crate::engine::state::{History, Row, State};
 use crate::laws::contact::{Contact, Law, Reaction};
@@ -65,22 +66,38 @@ pub(crate) trait ContactEntries {
 
 /// Tells the stiffness of each contact at work or, where `ahead` looks further, as stiff as each may get. Contacts that a bond
 /// suppresses, or has suppressed, count where they touch, as far as they act.
-pub(crate) fn stiffness(list: &impl ContactEntries, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
-    let (law, kept) = (list.law(), list.kept(state));
-    for (entry, &flags) in kept.flags.iter().enumerate() {
-        let bonded = flags & BONDED != 0;
-        if bonded && flags & SILENT != 0 {
-            continue;
-        }
-        let gap = if flags & (BONDED | RELEASED) == 0 { ahead.margin.max(ahead.way) } else { 0.0 };
-        let Some(met) = list.meet(state, entry, gap, Motion::Present) else { continue };
-        let touches = met.contact.overlap >= 0.0 || (law.holds_beyond_touch() && flags & TOUCHING != 0);
-        let deep = list.deepest(state, ahead, entry, &met);
-        let Some(deep) = deep.or(touches.then_some(met.contact)) else { continue };
-        let kind = if touches { Kind::Contact } else { Kind::ComingContact };
-        let link = Link::of_contact(list.bodies(state, entry), (law, met.row), &deep, met.arms);
-        tell(if bonded { link.without_normal() } else { Link { kind, ..link } });
+pub(crate) fn stiffness(
+    list: &(impl ContactEntries + Sync),
+    state: &State,
+    ahead: &SearchLimits,
+    context: &Context,
+    tell: &mut dyn FnMut(Link),
+) {
+    let count = list.kept(state).flags.len();
+    if context.threads.is_none() {
+        return (0..count).filter_map(|entry| link(list, state, ahead, entry)).for_each(tell);
     }
+    let piece = |piece: usize| {
+        let entries = piece * CHUNK..((piece + 1) * CHUNK).min(count);
+        entries.filter_map(|entry| link(list, state, ahead, entry)).collect::<Vec<_>>()
+    };
+    context.fold(count.div_ceil(CHUNK), piece, (), |(), links| links.into_iter().for_each(&mut *tell));
+}
+
+/// How stiff a contact may get, if it may touch.
+fn link(list: &impl ContactEntries, state: &State, ahead: &SearchLimits, entry: usize) -> Option<Link> {
+    let (law, flags) = (list.law(), list.kept(state).flags[entry]);
+    let bonded = flags & BONDED != 0;
+    if bonded && flags & SILENT != 0 {
+        return None;
+    }
+    let gap = if flags & (BONDED | RELEASED) == 0 { ahead.margin.max(ahead.way) } else { 0.0 };
+    let met = list.meet(state, entry, gap, Motion::Present)?;
+    let touches = met.contact.overlap >= 0.0 || (law.holds_beyond_touch() && flags & TOUCHING != 0);
+    let deep = list.deepest(state, ahead, entry, &met).or(touches.then_some(met.contact))?;
+    let kind = if touches { Kind::Contact } else { Kind::ComingContact };
+    let link = Link::of_contact(list.bodies(state, entry), (law, met.row), &deep, met.arms);
+    Some(if bonded { link.without_normal() } else { Link { kind, ..link } })
 }
 
 /// Tells each contact at work as it was in the last evaluation, after a time step of this length \[s\].

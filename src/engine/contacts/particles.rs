@@ -96,8 +96,8 @@ impl Pass for ContactPass {
 }
 
 impl Stiffness for ContactPass {
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
-        listed::stiffness(self, state, ahead, tell);
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, context: &Context, tell: &mut dyn FnMut(Link)) {
+        listed::stiffness(self, state, ahead, context, tell);
     }
 
     fn impacts(&self, _state: &State, meeting: &Meeting, tell: &mut dyn FnMut(Option<u32>, [Frame; 2])) {
@@ -174,8 +174,8 @@ impl ContactPass {
             step: context.step,
             width: context.width,
             deepest,
-            conducting,
             follows: followed.is_some(),
+            conducting,
         };
         let owners = followed::Bodies { material: &particles.material, owner: &particles.owner };
         let (ends, slots) = (&list.slabs, &state.neighbours.slabs);

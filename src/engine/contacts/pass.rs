@@ -72,8 +72,8 @@ pub(crate) trait Pass: Stiffness + Telling + Send + Sync {
 /// How stiff an interaction is or may get: for the stable and the automatic time step.
 pub(crate) trait Stiffness {
     /// Tells the stiffness of each interaction at work or, where `ahead` looks further, as stiff as each may get: for the
-    /// stable time step.
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link));
+    /// stable time step. In the order of the lists, whichever thread found it.
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, context: &Context, tell: &mut dyn FnMut(Link));
 
     /// Tells springs and dashpots of an impact where it is deepest: of two particles, or of one and each surface with a boundary's
     /// index.

@@ -2,6 +2,7 @@
 
 use crate::base::number::Vector;
 use crate::engine::bodies::kick_at;
+use crate::engine::integration::kick;
 use crate::engine::state::contacts::SLIDING;
 use crate::engine::state::{BoundaryState, History, Row, State};
 use crate::laws::bond::BondLoads;
@@ -118,10 +119,10 @@ impl Motion {
                 spin[axis] -= twist[axis];
             }
         } else {
-            let (force, torque, half) = (particles.force[original], particles.torque[original], 0.5 * step);
-            let (kick, twist) = (half / (velocity[3] + half * force[3]), half / (spin[3] + half * torque[3]));
+            let (force, torque) = (particles.force[original], particles.torque[original]);
+            let (shift, twist) = (kick(&velocity, &force, 0.5 * step), kick(&spin, &torque, 0.5 * step));
             for axis in 0..3 {
-                velocity[axis] -= kick * force[axis];
+                velocity[axis] -= shift * force[axis];
                 spin[axis] -= twist * torque[axis];
             }
         }

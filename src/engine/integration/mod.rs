@@ -282,7 +282,7 @@ pub(crate) fn coming_speed(particles: &Particles, step: f64) -> f64 {
     let squares = free.map(|slot| {
         let velocity = particles.velocity[slot];
         let force = particles.force[slot];
-        let next = plus(velocity, force, 0.5 * step * mobility(&velocity, &force, 0.5 * step));
+        let next = plus(velocity, force, kick(&velocity, &force, 0.5 * step));
         next[0] * next[0] + next[1] * next[1] + next[2] * next[2]
     });
     squares.fold(0.0, f64::max).sqrt()
@@ -294,8 +294,14 @@ fn plus(row: Row, other: Row, factor: f64) -> Row {
     [row[0] + factor * other[0], row[1] + factor * other[1], row[2] + factor * other[2], row[3]]
 }
 
-/// What a half kick of this length \[s\] gives for a unit load and a unit of time: behind a velocity stands the mass, behind the force on it
-/// its dashpot to the ground, which resists with the mean of the velocities before and after both half kicks \[1/kg\]. The same of rotation.
+/// What a half kick of this length \[s\] gives to a velocity for a unit force \[s/kg\]: behind the velocity stands the mass, behind the force its
+/// dashpot to the ground. The same of rotation.
+#[inline(always)]
+pub(crate) fn kick(motion: &Row, load: &Row, length: f64) -> f64 {
+    length / (motion[3] + length * load[3])
+}
+
+/// The same for each unit of time \[1/kg\].
 #[inline(always)]
 pub(crate) fn mobility(motion: &Row, load: &Row, length: f64) -> f64 {
     1.0 / (motion[3] + length * load[3])

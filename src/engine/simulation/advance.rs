@@ -131,7 +131,7 @@ impl Simulation {
         }
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        self.look_at_contacts(boundary_speed);
+        self.look_at_contacts(boundary_speed, standing);
         if self.is_due(boundary_speed, step) {
             self.look(step, &Context { step, ..*standing })?;
         }
@@ -145,7 +145,7 @@ impl Simulation {
     fn divided(&mut self, interval: f64, standing: &Context) -> Result<Underway, RunError> {
         let boundary_speed = self.boundary_speed();
         let (_, step) = divide(interval, self.state.clock.step);
-        let seen = self.look_at_contacts(boundary_speed);
+        let seen = self.look_at_contacts(boundary_speed, standing);
         if self.is_due(boundary_speed, step) {
             self.look(step, &Context { step, ..*standing })?;
         }
@@ -225,7 +225,7 @@ impl Simulation {
             if self.boundaries_change_speed() {
                 underway.boundary_speed = self.boundary_speed();
             }
-            let seen = self.look_at_contacts(underway.boundary_speed);
+            let seen = self.look_at_contacts(underway.boundary_speed, standing);
             let is_due = self.is_due(underway.boundary_speed, step) || (seen == Seen::Everything && self.is_calmer());
             if is_due {
                 self.check_plane()?;

@@ -17,7 +17,7 @@ use crate::engine::fluid;
 use crate::engine::neighbours;
 use crate::engine::state::{
     BondList, BoundaryState, Clock, ContactList, Deepest, Foresight, Ledger, Losses, Neighbours, Nodes, Pace,
-    Particles, State, WallContacts,
+    Particles, State, Through, WallContacts,
 };
 use crate::engine::traces;
 use crate::engine::transfer;
@@ -40,6 +40,7 @@ pub(super) fn state(scene: &Scene) -> State {
         contacts: vec![ContactList::default(); scene.contacts.len()],
         walls: wall_lists(scene),
         deepest: Deepest::default(),
+        through: Through::default(),
         bonds: vec![BondList::default(); scene.bonds.len()],
         breaks: Vec::new(),
         boundaries: scene.boundaries.iter().map(|it| boundary(scene, it)).collect(),

@@ -118,7 +118,7 @@ impl Simulation {
         result.map_err(|error| self.named(error))?;
         (self.state.foresight, self.state.pace) = (Foresight::default(), Pace::default());
         self.state.clock.speed = self.coming_speed(0.0);
-        self.find_pace(self.state.clock.speed.max(self.boundary_speed()), true);
+        self.find_pace(self.state.clock.speed.max(self.boundary_speed()), true, &context);
         self.first_step(&context)?;
         self.look_at_pressed();
         self.look_at_cell();

@@ -105,7 +105,9 @@ impl Probe {
     pub(crate) fn neighbours(&self) -> Vec<Neighbours> {
         let mut all = Vec::new();
         for pass in &self.simulation.passes {
-            pass.stiffness(&self.rest, &SearchLimits::default(), &mut |link: Link| all.push((link.first, link.second)));
+            pass.stiffness(&self.rest, &SearchLimits::default(), &Context::ALONE, &mut |link: Link| {
+                all.push((link.first, link.second));
+            });
         }
         all
     }

@@ -4,7 +4,7 @@ use super::{RunError, Simulation};
 use crate::base::number::Vector;
 use crate::engine::bodies;
 use crate::engine::boundaries::passing::MovedParticles;
-use crate::engine::integration::mobility;
+use crate::engine::integration::kick;
 use crate::engine::run_error::Cause;
 use crate::engine::state::{Clock, GONE, Particles};
 use crate::laws::motion::InputCourse;
@@ -38,8 +38,8 @@ impl Simulation {
         let particles = &self.state.particles;
         for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == 0) {
             let (velocity, force) = (particles.velocity[slot], particles.force[slot]);
-            let kick = 0.5 * step * mobility(&velocity, &force, 0.5 * step);
-            let next = |axis: usize| velocity[axis] + kick * force[axis];
+            let gained = kick(&velocity, &force, 0.5 * step);
+            let next = |axis: usize| velocity[axis] + gained * force[axis];
             let radius = particles.position[slot][3];
             let way = step * (0..3).map(|axis| next(axis) * next(axis)).sum::<f64>().sqrt();
             if way > RUNAWAY * radius {

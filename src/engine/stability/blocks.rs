@@ -8,7 +8,7 @@
 
 use super::network::{Element, Network, single};
 use super::shares::{Shares, divided};
-use super::triangle::{Place, Triangle, add_group, whole};
+use super::triangle::{EMPTY, Place, Triangle, add_group, norm_squared, whole};
 use crate::engine::contacts::Link;
 use nalgebra::{Matrix6, Vector6};
 
@@ -59,7 +59,7 @@ pub(super) fn quick_root(
     tell: impl FnOnce(&mut dyn FnMut(Link)),
 ) -> (f64, Option<usize>) {
     let (movers, shares) = (bodies.movers(), Shares::of_none(bodies));
-    let mut blocks = Blocks { network: bodies, shares, stiffness: vec![[0.0; 21]; movers], damping: Vec::new() };
+    let mut blocks = Blocks { network: bodies, shares, stiffness: vec![EMPTY; movers], damping: Vec::new() };
     tell(&mut |link| blocks.add_link(&link));
     for (element, stiffness) in supports {
         blocks.add_parts(&element, [stiffness, [0.0; 4]]);
@@ -82,8 +82,8 @@ impl<'a> Blocks<'a> {
         Self {
             network,
             shares: Shares::of(network, guess),
-            stiffness: vec![[0.0; 21]; movers],
-            damping: vec![[0.0; 21]; if network.is_damped() { movers } else { 0 }],
+            stiffness: vec![EMPTY; movers],
+            damping: vec![EMPTY; if network.is_damped() { movers } else { 0 }],
         }
     }
 }
@@ -109,7 +109,7 @@ impl Blocks<'_> {
         // As a network keeps them.
         let parts = parts.map(|parts| parts.map(single));
         if self.damping.is_empty() && parts[1] != [0.0; 4] {
-            self.damping = vec![[0.0; 21]; self.stiffness.len()];
+            self.damping = vec![EMPTY; self.stiffness.len()];
         }
         for end in 0..2 {
             if let Some(mover) = movers[end] {
@@ -138,9 +138,9 @@ impl Blocks<'_> {
             }
             let touched = self.with_neighbours(&above);
             for mover in (0..touched.len()).filter(|&mover| touched[mover]) {
-                self.stiffness[mover] = [0.0; 21];
+                self.stiffness[mover] = EMPTY;
                 if let Some(block) = self.damping.get_mut(mover) {
-                    *block = [0.0; 21];
+                    *block = EMPTY;
                 }
             }
             self.add(|mover| touched[mover]);
@@ -231,10 +231,10 @@ impl Blocks<'_> {
     /// Whether the root of a body is below this one: whether μ² − D(K) − μ D(C) is positive definite.
     fn is_below(&self, mover: usize, root: f64) -> bool {
         let square = root * root;
-        let combined = self.block(mover).combined(root);
         // No eigenvalue is above the norm of all entries: most bodies need no more.
-        combined.norm_squared() < square * square
-            || (Matrix6::from_diagonal_element(square) - combined).cholesky().is_some()
+        let damping = self.damping.get(mover).unwrap_or(&EMPTY);
+        norm_squared(&self.stiffness[mover], damping, root) < square * square
+            || (Matrix6::from_diagonal_element(square) - self.block(mover).combined(root)).cholesky().is_some()
     }
 
     /// About the root of a body, from below: that of the motion that iteration comes to.
@@ -257,9 +257,10 @@ impl Blocks<'_> {
     pub(super) fn largest(&self, movers: impl Iterator<Item = usize>, floor: f64) -> (f64, Option<usize>) {
         let (mut most, mut at) = (floor, None);
         for mover in movers {
-            let empty =
-                self.stiffness[mover] == [0.0; 21] && self.damping.get(mover).is_none_or(|block| *block == [0.0; 21]);
-            if empty || (most > 0.0 && self.is_below(mover, most)) {
+            let is_empty =
+                || self.stiffness[mover] == EMPTY && self.damping.get(mover).is_none_or(|block| *block == EMPTY);
+            let is_passed = if most > 0.0 { self.is_below(mover, most) } else { is_empty() };
+            if is_passed {
                 continue;
             }
             let mut vector = ASKEW;

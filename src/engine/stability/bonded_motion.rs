@@ -2,6 +2,7 @@
 
 use super::System;
 use crate::base::number::Vector;
+use crate::base::threads::Context;
 use crate::engine::bodies;
 use crate::engine::bonds::clusters;
 use crate::engine::contacts::{Frame, Link, SearchLimits};
@@ -86,7 +87,7 @@ impl System<'_> {
     pub(super) fn each_joint(&self, tell: &mut dyn FnMut(Joint)) {
         let present = SearchLimits::default();
         for pass in self.passes.iter().filter(|pass| pass.source() == Source::Bonds) {
-            pass.stiffness(self.state, &present, &mut |link| tell(self.joint(&link)));
+            pass.stiffness(self.state, &present, &Context::ALONE, &mut |link| tell(self.joint(&link)));
         }
     }
 

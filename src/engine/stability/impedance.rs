@@ -1,6 +1,7 @@
 //! What servos press on.
 
 use super::System;
+use crate::base::threads::Context;
 use crate::engine::contacts::SearchLimits;
 
 /// Stiffness \[N/m\] and mechanical impedance \[kg/s\] of what touches a boundary, along x, y, z.
@@ -17,7 +18,7 @@ impl System<'_> {
         let (particles, boundaries) = (&self.state.particles, self.scene.boundaries.len());
         let owner = |slot: u32| particles.group(slot as usize);
         for pass in self.passes {
-            pass.stiffness(self.state, &SearchLimits::default(), &mut |link| {
+            pass.stiffness(self.state, &SearchLimits::default(), &Context::ALONE, &mut |link| {
                 let second = link.boundary.map(|boundary| boundary as usize).or(link.second.and_then(owner));
                 let sides = [(owner(link.first), link.second), (second, Some(link.first))];
                 if sides[0].0 == sides[1].0 {

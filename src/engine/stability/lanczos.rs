@@ -125,8 +125,8 @@ impl<'a> Method<'a> {
         for end in ends_of.iter_mut().flatten().filter(|end| **end != UNMOVED) {
             *end = places[*end as usize];
         }
+        let (starts, ends) = ends_by_body(movers.len(), &ends_of);
         let plain = Plain::of(network, &movers, &ends_of);
-        let (starts, ends) = if plain.is_some() { Default::default() } else { ends_by_body(movers.len(), &ends_of) };
         let loads = vec![[0.0; 6]; if plain.is_some() { 0 } else { ends_of.len() }];
         Self { network, context, movers, ends_of, starts, ends, loads, plain }
     }
@@ -268,10 +268,10 @@ impl<'a> Method<'a> {
 
     /// S(μ) of a motion.
     fn multiply(&mut self, root: f64, motion: &Motions, image: &mut Motions) {
-        if let Some(plain) = &self.plain {
-            return plain.multiply(root, motion, image);
-        }
         let (network, context) = (self.network, self.context);
+        if let Some(plain) = &mut self.plain {
+            return plain.multiply(root, (motion, image), (&self.starts, &self.ends), context);
+        }
         let (movers, ends_of) = (&self.movers, &self.ends_of);
         let moved = |place: usize, end: usize| {
             let body = ends_of[place][end];

@@ -89,12 +89,12 @@ impl System<'_> {
     ) -> StableStep {
         let impacts = self.impact(speed, ahead.acceleration).unwrap_or(0.0);
         if enough.is_finite() {
-            let (network, body) = self.quick_root(ahead);
+            let (network, body) = self.quick_root(ahead, context);
             if network * enough <= 2.0 {
                 return StableStep { network, body, impacts };
             }
         }
-        let network = self.network(ahead);
+        let network = self.network(ahead, context);
         let (root, body) = if network.elements.is_empty() {
             (0.0, None)
         } else if self.has_bonds(ahead) {
@@ -106,11 +106,11 @@ impl System<'_> {
     }
 
     /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
-    fn quick_root(&self, ahead: &SearchLimits) -> (f64, Option<usize>) {
+    fn quick_root(&self, ahead: &SearchLimits, context: &Context) -> (f64, Option<usize>) {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
         let supports = bodies.supports(self.bodies);
         blocks::quick_root(&bodies, supports, |tell| {
-            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, tell));
+            self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, context, tell));
         })
     }
 
@@ -121,8 +121,8 @@ impl System<'_> {
     }
 
     /// The network, as it may get.
-    fn network(&self, ahead: &SearchLimits) -> Network<'_> {
-        Network::of(self.state, self.bodies, self.fields, self.passes, ahead)
+    fn network(&self, ahead: &SearchLimits, context: &Context) -> Network<'_> {
+        Network::of(self.state, self.bodies, self.fields, self.passes, ahead, context)
     }
 
     /// What a step that was found is limited by.
@@ -137,7 +137,7 @@ impl System<'_> {
         if found.impacts > found.network {
             return self.hardest_impact(speed, ahead.acceleration).map(Impact::limiter);
         }
-        let network = self.network(ahead);
+        let network = self.network(ahead, context);
         if network.elements.is_empty() {
             return None;
         }
@@ -154,7 +154,7 @@ impl System<'_> {
         let part = (0..4).reduce(|most, next| if parts[next] > parts[most] { next } else { most })?;
         let (link, mut count) = (std::cell::Cell::new(None), 0);
         for pass in self.passes {
-            pass.stiffness(self.state, ahead, &mut |told| {
+            pass.stiffness(self.state, ahead, context, &mut |told| {
                 for _ in network.with_itself(&told).iter().flatten().filter(|link| network.element(link).is_some()) {
                     if count == place {
                         link.set(Some(told));

@@ -1,6 +1,7 @@
 //! The network of springs and dashpots: contacts and bonds between the bodies that forces move.
 
 use crate::base::number::{Vector, binade};
+use crate::base::threads::Context;
 use crate::engine::bodies::{self, RigidBody};
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
@@ -175,13 +176,14 @@ impl<'a> Network<'a> {
         fields: &Fields,
         passes: &[Box<dyn Pass>],
         ahead: &SearchLimits,
+        context: &Context,
     ) -> Self {
         let mut network = Self::of_bodies(state, bodies, fields);
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
         let most = most_links(state);
         network.elements.reserve(most);
         for pass in passes {
-            pass.stiffness(state, ahead, &mut |link| network.add(&link, most));
+            pass.stiffness(state, ahead, context, &mut |link| network.add(&link, most));
         }
         network.add_supports(bodies);
         network

@@ -1,31 +1,40 @@
-//! The product of a small network of contacts between particles with a motion: no groups, nothing that resists turning alone.
+//! The product of a network of contacts between particles with a motion, in lanes and over the threads: no groups, nothing that
+//! resists turning alone.
 //!
 //! Arms lie along the normal n. With k along and q across it, the relative velocity s at the contact gives the force
-//! f = q s + (k − q) (n · s) n, whose couple about either centre is the arm's length times n × f = q n × s.
+//! f = q s + (k − q) (n · s) n, whose couple about either centre is the arm's length times n × f = q n × s. What both give each body is
+//! found contact by contact, in registers; then each body adds up what its own contacts give it, in their order.
 
-use super::network::{Element, Network, UNMOVED};
+use super::network::{Network, UNMOVED};
+use crate::base::lanes::{self, Kernel, Lane, Shared, columns, vector};
+use crate::base::number::{Row, Vector, add};
+use crate::base::threads::{CHUNK, Context};
 
-/// A contact.
-struct ContactLink {
-    /// Its bodies: places among those that interact; the second may be [`UNMOVED`].
-    bodies: [u32; 2],
-    /// Unit normal.
-    normal: [f64; 3],
-    /// From each centre to where the forces act, along the normal \[m\].
-    arms: [f64; 2],
-    /// Spring along and across the normal \[N/m\].
-    stiffness: [f64; 2],
-    /// Dashpot along and across the normal \[kg/s\].
-    damping: [f64; 2],
-}
+/// Numbers of a contact: unit normal, arms from each centre to where the forces act \[m\], springs along and across the normal \[N/m\],
+/// dashpots likewise \[kg/s\].
+const NUMBERS: usize = 9;
+
+/// Contacts in the widest register: columns are filled up to a multiple of it.
+const WIDEST: usize = 8;
 
 /// A network of contacts between particles.
 pub(super) struct Plain {
-    /// The contacts.
-    ties: Vec<ContactLink>,
+    /// The bodies of each contact: places among those that interact. What does not move is the place behind them.
+    bodies: [Vec<u32>; 2],
+    /// The numbers of all contacts, each a column.
+    numbers: [Vec<f64>; NUMBERS],
     /// What scales translations \[1/√kg\] and rotations \[1/√(kg m²)\] of each body.
     roots: Vec<[f64; 2]>,
+    /// Scaled velocity of each body, and what scales it.
+    shifts: Vec<Row>,
+    /// Scaled angular velocity of each body, and what scales it.
+    spins: Vec<Row>,
+    /// Scaled acceleration and angular acceleration of each end of a contact: twice the contact, and 1 more for its second end.
+    loads: Vec<[Row; 2]>,
 }
+
+/// Where the ends of each body begin, and behind the last one their number; and the ends, body by body.
+pub(super) type Ends<'a> = (&'a [u32], &'a [u32]);
 
 impl Plain {
     /// That of a network with these bodies, whose elements have these ends; none where it has more than contacts of particles.
@@ -33,69 +42,165 @@ impl Plain {
         if network.stiffness.resists_turning() || network.damping.resists_turning() {
             return None;
         }
-        let roots = movers.iter().map(|&mover| network.roots.get(mover as usize).copied()).collect::<Option<_>>()?;
-        let tie = |(place, element): (usize, &Element)| {
-            let parts = |[along, across, _, _]: [f64; 4]| [along, across];
-            ContactLink {
-                bodies: ends_of[place],
-                normal: element.normal.map(f64::from),
-                arms: element.arms.map(f64::from),
-                stiffness: parts(network.stiffness.of(place)),
-                damping: parts(network.damping.of(place)),
+        let roots: Vec<_> =
+            movers.iter().map(|&mover| network.roots.get(mover as usize).copied()).collect::<Option<_>>()?;
+        let (nobody, room) = (movers.len() as u32, ends_of.len().next_multiple_of(WIDEST));
+        let mut bodies = [vec![nobody; room], vec![nobody; room]];
+        let mut numbers = [const { Vec::new() }; NUMBERS];
+        numbers.iter_mut().for_each(|column| column.resize(room, 0.0));
+        for (place, (element, own)) in network.elements.iter().zip(ends_of).enumerate() {
+            for (bodies, &body) in bodies.iter_mut().zip(own) {
+                bodies[place] = if body == UNMOVED { nobody } else { body };
             }
-        };
-        Some(Self { ties: network.elements.iter().enumerate().map(tie).collect(), roots })
+            let ([x, y, z], [a, b]) = (element.normal.map(f64::from), element.arms.map(f64::from));
+            let ([k, q, ..], [c, d, ..]) = (network.stiffness.of(place), network.damping.of(place));
+            for (column, number) in numbers.iter_mut().zip([x, y, z, a, b, k, q, c, d]) {
+                column[place] = number;
+            }
+        }
+        let rows = || vec![[0.0; 4]; movers.len() + 1];
+        let loads = vec![[[0.0; 4]; 2]; 2 * room];
+        Some(Self { bodies, numbers, roots, shifts: rows(), spins: rows(), loads })
     }
 
     /// S(μ) of a motion.
-    pub(super) fn multiply(&self, root: f64, motion: &[[f64; 6]], image: &mut [[f64; 6]]) {
-        image.fill([0.0; 6]);
-        for tie in &self.ties {
-            let [first, second] = tie.bodies;
-            let (mut slip, mut spin) = self.moved(first, tie.arms[0], motion);
-            if second != UNMOVED {
-                let (velocity, turn) = self.moved(second, tie.arms[1], motion);
-                for k in 0..3 {
-                    slip[k] -= velocity[k];
-                    spin[k] -= turn[k];
-                }
-            }
-            let n = tie.normal;
-            let by_spin = cross(spin, n);
-            let s = [slip[0] + by_spin[0], slip[1] + by_spin[1], slip[2] + by_spin[2]];
-            let [along, across] = [0, 1].map(|k| tie.stiffness[k] + root * tie.damping[k]);
-            let pressed = (along - across) * (n[0] * s[0] + n[1] * s[1] + n[2] * s[2]);
-            let force: [f64; 3] = std::array::from_fn(|k| across * s[k] + pressed * n[k]);
-            let couple = cross(n, force);
-            self.load(first, 1.0, tie.arms[0], [force, couple], image);
-            if second != UNMOVED {
-                self.load(second, -1.0, tie.arms[1], [force, couple], image);
-            }
+    pub(super) fn multiply(
+        &mut self,
+        root: f64,
+        (motion, image): (&[[f64; 6]], &mut [[f64; 6]]),
+        ends: Ends,
+        context: &Context,
+    ) {
+        for (body, ([v, w], [a, b, c, d, e, f])) in self.roots.iter().zip(motion).enumerate() {
+            (self.shifts[body], self.spins[body]) = ([*a, *b, *c, *v], [*d, *e, *f, *w]);
         }
+        let mut loads = std::mem::take(&mut self.loads);
+        let count = self.bodies[0].len();
+        let places = Shared::new(&mut loads);
+        context.each(count.div_ceil(CHUNK), |piece| {
+            let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
+            // SAFETY: pieces do not overlap.
+            let loads = unsafe { places.part(2 * from, 2 * to) };
+            lanes::run(context.width, Loads { plain: self, root, from, loads });
+        });
+        self.loads = loads;
+        let count = image.len();
+        let places = Shared::new(image);
+        context.each(count.div_ceil(CHUNK), |piece| {
+            let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
+            // SAFETY: pieces do not overlap.
+            let image = unsafe { places.part(from, to) };
+            lanes::run(context.width, Sums { loads: &self.loads, ends, from, image });
+        });
     }
 
-    /// Velocity of a body, and its angular velocity times its arm.
+    /// A column of the numbers, from this contact on.
+    ///
+    /// # Safety
+    /// The contact is a multiple of the register's width, below the length of the columns.
     #[inline(always)]
-    fn moved(&self, body: u32, arm: f64, motion: &[[f64; 6]]) -> ([f64; 3], [f64; 3]) {
-        let ([v, w], [a, b, c, d, e, f]) = (self.roots[body as usize], motion[body as usize]);
-        let turn = w * arm;
-        ([v * a, v * b, v * c], [turn * d, turn * e, turn * f])
+    unsafe fn number<N: Lane>(&self, column: usize, at: usize) -> N {
+        // SAFETY: the caller's promise; columns are filled up to a multiple of the widest register.
+        unsafe { N::load(self.numbers[column].as_ptr().add(at)) }
     }
 
-    /// Adds a force and its couple for an arm of unit length to what a body feels.
+    /// How the bodies at this end of contacts move: velocity and angular velocity times the arm; what scales both; the arm \[m\].
+    ///
+    /// # Safety
+    /// As for [`Plain::number`].
     #[inline(always)]
-    fn load(&self, body: u32, sign: f64, arm: f64, [force, couple]: [[f64; 3]; 2], image: &mut [[f64; 6]]) {
-        let ([v, w], image) = (self.roots[body as usize], &mut image[body as usize]);
-        let (v, w) = (sign * v, sign * w * arm);
-        for k in 0..3 {
-            image[k] += v * force[k];
-            image[3 + k] += w * couple[k];
+    unsafe fn moved<N: Lane>(&self, end: usize, at: usize) -> End<N> {
+        // SAFETY: the caller's promise; bodies are places among the rows.
+        unsafe {
+            let bodies = self.bodies[end].as_ptr().add(at);
+            let shift = N::load_rows(self.shifts.as_ptr(), bodies);
+            let spin = N::load_rows(self.spins.as_ptr(), bodies);
+            let arm: N = self.number(3 + end, at);
+            ([vector(shift) * shift[3], vector(spin) * (spin[3] * arm)], [shift[3], spin[3]], arm)
         }
     }
 }
 
-/// Vector product.
-#[inline(always)]
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+/// The bodies at an end of contacts: their motion, what scales it, the arm \[m\].
+type End<N> = ([Vector<N>; 2], [N; 2], N);
+
+/// What the contacts of a piece give their ends.
+struct Loads<'a, 'b> {
+    /// The network.
+    plain: &'a Plain,
+    /// Root μ \[1/s\].
+    root: f64,
+    /// The first contact.
+    from: usize,
+    /// Where it goes: two for each contact.
+    loads: &'b mut [[Row; 2]],
+}
+
+impl Kernel for Loads<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { plain, root, from, loads } = self;
+        let root = N::splat(root);
+        let mut place = 0;
+        while 2 * place < loads.len() {
+            let at = from + place;
+            // SAFETY: pieces and columns are multiples of the widest register, and each contact has two loads.
+            unsafe {
+                let n = Vector::new(plain.number::<N>(0, at), plain.number(1, at), plain.number(2, at));
+                let ([u, w], [shift, spin], arm) = plain.moved::<N>(0, at);
+                let ([v, z], [other_shift, other_spin], other_arm) = plain.moved::<N>(1, at);
+                let slip = (u - v) + (w - z).cross(n);
+                let along = plain.number::<N>(5, at) + root * plain.number(7, at);
+                let across = plain.number::<N>(6, at) + root * plain.number(8, at);
+                let force = slip * across + n * ((along - across) * n.dot(slip));
+                let couple = n.cross(force);
+                let mut rows = [[[0.0; 4]; WIDEST]; 4];
+                N::store_block(columns(force * shift), rows[0].as_mut_ptr());
+                N::store_block(columns(couple * (spin * arm)), rows[1].as_mut_ptr());
+                N::store_block(columns(force * -other_shift), rows[2].as_mut_ptr());
+                N::store_block(columns(couple * (-other_spin * other_arm)), rows[3].as_mut_ptr());
+                let mut lane = 0;
+                while lane < N::WIDTH {
+                    let ends = loads.as_mut_ptr().add(2 * (place + lane));
+                    *ends = [rows[0][lane], rows[1][lane]];
+                    *ends.add(1) = [rows[2][lane], rows[3][lane]];
+                    lane += 1;
+                }
+            }
+            place += N::WIDTH;
+        }
+    }
+}
+
+/// What a piece of the bodies feels.
+struct Sums<'a, 'b> {
+    /// What each end feels.
+    loads: &'a [[Row; 2]],
+    /// The ends of each body.
+    ends: Ends<'a>,
+    /// The first body.
+    from: usize,
+    /// Where it goes.
+    image: &'b mut [[f64; 6]],
+}
+
+impl Kernel for Sums<'_, '_> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        let Self { loads, ends: (starts, ends), from, image } = self;
+        let mut place = 0;
+        while place < image.len() {
+            let (mut next, to) = (starts[from + place] as usize, starts[from + place + 1] as usize);
+            let mut sums = [[0.0; 4]; 2];
+            while next < to {
+                let load = &loads[ends[next] as usize];
+                add(&mut sums[0], &load[0]);
+                add(&mut sums[1], &load[1]);
+                next += 1;
+            }
+            let [[a, b, c, _], [d, e, f, _]] = sums;
+            image[place] = [a, b, c, d, e, f];
+            place += 1;
+        }
+    }
 }

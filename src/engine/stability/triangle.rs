@@ -6,6 +6,12 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 /// Lower triangle of a symmetric 6 × 6 matrix, row by row, scaled by mass and moment of inertia.
 pub(super) type Triangle = [f32; 21];
 
+/// That of no interaction.
+pub(super) const EMPTY: Triangle = [0.0; 21];
+
+/// How often each entry of a triangle stands in its matrix.
+const TIMES: [f64; 21] = [1., 2., 1., 2., 2., 1., 2., 2., 2., 1., 2., 2., 2., 2., 1., 2., 2., 2., 2., 2., 1.];
+
 /// How a particle stands to an element: what its springs and its dashpots are weighed with.
 pub(super) struct Place {
     /// Unit normal.
@@ -85,6 +91,13 @@ pub(super) fn add_group(
             block[row * (row + 1) / 2 + column] += part as f32;
         }
     }
+}
+
+/// Sum of the squares of all entries of K + μ C.
+#[inline]
+pub(super) fn norm_squared(stiffness: &Triangle, damping: &Triangle, root: f64) -> f64 {
+    let entry = |place: usize| f64::from(stiffness[place]) + root * f64::from(damping[place]);
+    (0..21).map(|place| TIMES[place] * entry(place) * entry(place)).sum()
 }
 
 /// The whole matrix of a triangle.

@@ -189,6 +189,8 @@ impl State {
         all_finite(&[self.deepest.overlap, self.deepest.time], "deepest")?;
         let is_there = self.deepest.boundary.is_none_or(|boundary| (boundary as usize) < self.boundaries.len());
         demand(is_there, "deepest", 0, "a boundary of the scene")?;
+        let sound = self.through.is_sound(&self.contacts, self.boundaries.len());
+        demand(sound, "through", 0, "contacts of the lists and boundaries of the scene")?;
         all_finite(&self.damping_force, "damping_force")?;
         all_finite(&self.damping_impulse, "damping_impulse")?;
         let sound = self.exchange.as_ref().is_none_or(Exchange::is_sound);

@@ -25,6 +25,7 @@ pub mod pace;
 pub mod particles;
 mod plain;
 pub mod snapshot;
+pub mod through;
 pub mod traces;
 
 pub use bonds::{BondList, Break};
@@ -47,6 +48,7 @@ pub use nodes::Nodes;
 pub use number::InsertedParticle;
 pub use pace::Pace;
 pub use particles::{GONE, IMAGE, Particles};
+pub use through::{Separated, Through, TouchedThrough};
 pub use traces::{FacetTraces, Impact, ImpactBin, ImpactRecord, Traces};
 
 pub use crate::base::number::Row;
@@ -83,6 +85,8 @@ pub struct State {
     pub walls: Vec<WallContacts>,
     /// The deepest contact since time 0.
     pub deepest: Deepest,
+    /// Pairs of particles with a surface between them.
+    pub through: Through,
     /// Living bonds, a list for each bond law.
     pub bonds: Vec<BondList>,
     /// Bonds that broke since the present communication step began.
@@ -124,6 +128,7 @@ clone_in_place!(State {
     contacts,
     walls,
     deepest,
+    through,
     bonds,
     breaks,
     boundaries,
@@ -235,6 +240,7 @@ impl State {
     /// The caller sets the energies with which an energy book begins, and the mean loads.
     pub fn begin_counting(&mut self) {
         self.deepest = Deepest::default();
+        self.through.first = None;
         self.breaks.clear();
         self.damping_impulse = [0.0; 3];
         self.boundaries.iter_mut().for_each(BoundaryState::begin_counting);

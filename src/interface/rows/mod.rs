@@ -3,6 +3,7 @@
 //! A row says everything of its variables: name, unit, when a scene has them, how they are read and written. The unit's
 //! description, the unit, its page and `history.csv` follow from the rows; nothing else lists variables.
 
+mod array;
 mod boundaries;
 mod cell;
 mod exchange;
@@ -18,6 +19,7 @@ mod traces;
 use crate::base::quantity::BoundaryIndex;
 use crate::interface::{Causality, Variable};
 use crate::scene::Scene;
+pub(super) use array::ArrayForm;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
@@ -126,28 +128,41 @@ impl Source {
         matches!(self.row.each, Each::Boundary | Each::Axis)
     }
 
+    /// Name of what it is of; empty where it is of the whole scene.
+    fn owner(self, scene: &Scene) -> &str {
+        match self.row.each {
+            Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
+            Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar => {
+                &scene.boundaries[self.at.boundary.index()].name
+            }
+            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
+            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[self.at.place()].name,
+            Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[self.at.place()].name,
+            Each::Insertion => &scene.insertions[self.at.place()].name,
+            Each::Outlet => &scene.outlets[self.at.place()].name,
+            Each::Meter => &scene.meters[self.at.place()].name,
+            Each::Probe | Each::ProbeAxis => &scene.probes[self.at.place()].name,
+        }
+    }
+
+    /// What it is: of the component and the node or other element with these names.
+    fn description(self, scene: &Scene, component: &str, element: &str) -> String {
+        let (owner, described) = (self.owner(scene), self.row.description.replace("{axis}", component));
+        let described = described.replace("{element}", element);
+        described.replace("{boundary}", owner).replace("{region}", owner).replace("{owner}", owner)
+    }
+
     /// The variable.
     fn variable(self, scene: &Scene) -> Variable {
         let Self { row, at } = self;
-        let owner = match row.each {
-            Each::Scene | Each::Strain | Each::Tangent | Each::Shear => "",
-            Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar => &scene.boundaries[at.boundary.index()].name,
-            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
-            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[at.place()].name,
-            Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[at.place()].name,
-            Each::Insertion => &scene.insertions[at.place()].name,
-            Each::Outlet => &scene.outlets[at.place()].name,
-            Each::Meter => &scene.meters[at.place()].name,
-            Each::Probe | Each::ProbeAxis => &scene.probes[at.place()].name,
-        };
+        let owner = self.owner(scene);
         let own = row.each.names(scene)[at.axis()];
         let number = (at.element() + 1).to_string();
         let element = row.each.element().map(|kind| format!("{kind}[{number}]")).unwrap_or_default();
         let parts = [owner, &element, row.name, own].into_iter().filter(|part| !part.is_empty());
-        let described = row.description.replace("{axis}", own).replace("{element}", &number);
         Variable {
             name: parts.collect::<Vec<_>>().join("."),
-            description: described.replace("{boundary}", owner).replace("{region}", owner).replace("{owner}", owner),
+            description: self.description(scene, own, &number),
             quantity: row.quantity,
             causality: if row.write.is_some() { Causality::Input } else { Causality::Output },
             variability: row.variability,

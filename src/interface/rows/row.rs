@@ -33,12 +33,12 @@ pub(in crate::interface) enum Each {
     Axis,
     /// One for each node that moves by itself and axis: `<boundary>.node[<number>].<name>.<axis>`.
     Node,
-    /// One for each node that moves by itself: `<boundary>.node[<number>].<name>`.
-    NodeScalar,
     /// One for the fluid: `<fluid>.<name>`.
     Fluid,
     /// One for the fluid and each axis: `<fluid>.<name>.<axis>`.
     FluidAxis,
+    /// One for each node that moves by itself: `<boundary>.node[<number>].<name>`.
+    NodeScalar,
     /// One for each insertion: `<insertion>.<name>`.
     Insertion,
     /// One for each outlet: `<outlet>.<name>`.
@@ -98,8 +98,8 @@ impl Each {
             Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary
-            | Self::NodeScalar
             | Self::Fluid
+            | Self::NodeScalar
             | Self::Region
             | Self::Cell
             | Self::CellSet

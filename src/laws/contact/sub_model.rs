@@ -298,12 +298,12 @@ pub trait Heat: Coefficients {
     const NAME: &'static str;
     /// What the scene writes under the model's name.
     type Keys: ModelKeys;
-    /// What of a contact it looks at: `section` where it wants the radii of both bodies.
-    const NEEDS: Needs = Needs::NONE;
     /// Properties of two materials that the model declares of its own.
     const PAIR_PROPERTIES: &'static [&'static Property] = &[];
     /// Properties of one material that the model declares of its own.
     const MATERIAL_PROPERTIES: &'static [&'static Property] = &[];
+    /// What of a contact it looks at: `section` where it wants the radii of both bodies.
+    const NEEDS: Needs = Needs::NONE;
     /// The coefficients for two materials.
     fn between(pair: &MaterialPair, keys: &Self::Keys) -> Result<Self, Missing>;
     /// Heat flow from the warmer body to the colder over the difference of their temperatures \[W/K\].

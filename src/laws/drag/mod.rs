@@ -117,7 +117,8 @@ mod tests {
 
     #[test]
     fn every_law_is_a_number_above_0_whatever_the_flow() {
-        let laws: [(&str, fn(f64, f64) -> f64); 6] = [
+        type Factor = fn(f64, f64) -> f64;
+        let laws: [(&str, Factor); 6] = [
             ("stokes", factor::<stokes::Stokes>),
             ("schiller_naumann", factor::<schiller_naumann::SchillerNaumann>),
             ("di_felice", factor::<di_felice::DiFelice>),

@@ -50,7 +50,7 @@ pub(super) fn in_box(
     if farthest.map(|distance| distance * distance).sum::<f64>() <= 1.0 {
         return volume;
     }
-    let signed = |corner: usize| if corner.count_ones() % 2 == 0 { beyond(corner) } else { -beyond(corner) };
+    let signed = |corner: usize| if corner.count_ones().is_multiple_of(2) { beyond(corner) } else { -beyond(corner) };
     ((0..8).map(signed).sum::<f64>() * cube).clamp(0.0, volume)
 }
 

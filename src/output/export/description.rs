@@ -1,9 +1,13 @@
-//! `modelDescription.xml`, from the interface alone.
+//! `modelDescription.xml`, from the interface alone: what both editions of the standard share, and FMI 2.0.
 
-use crate::interface::{Causality, Interface, Quantity, Type, Variability, Variable};
+mod arrays;
+mod scales;
+
+use crate::interface::{Causality, Interface, Quantity, Standard, Type, Variability, Variable};
 use crate::scene::Scene;
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
+use scales::Scales;
 use std::collections::BTreeMap;
 use std::io;
 
@@ -13,6 +17,8 @@ pub(super) struct Model<'a> {
     pub(super) identifier: &'a str,
     /// The unit's GUID.
     pub(super) identity: &'a str,
+    /// The edition of the standard that it speaks.
+    pub(super) standard: Standard,
     /// The scene.
     pub(super) scene: &'a Scene,
     /// Its variables.
@@ -28,6 +34,13 @@ const CAPABILITIES: [(&str, &str); 5] = [
     ("canSerializeFMUstate", "true"),
 ];
 
+/// The same by the names of FMI 3.0, which has no input derivatives.
+const CAPABILITIES_3: [(&str, &str); 3] = [
+    ("canHandleVariableCommunicationStepSize", "true"),
+    ("canGetAndSetFMUState", "true"),
+    ("canSerializeFMUState", "true"),
+];
+
 /// Categories of messages, with what they are.
 pub const LOG_CATEGORIES: [(&str, &str); 5] = [
     ("logAll", "everything below"),
@@ -38,12 +51,11 @@ pub const LOG_CATEGORIES: [(&str, &str); 5] = [
 ];
 
 /// The writer of the description.
-type Xml = Writer<Vec<u8>>;
+pub(super) type Xml = Writer<Vec<u8>>;
 
 /// The whole file. Elements stand in the order that the standard's schema demands.
 pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let mut xml = new_xml()?;
     let (sentence, about) = (about(model.scene), &model.scene.about);
     let told = [
         ("author", &about.author),
@@ -51,27 +63,22 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
         ("copyright", &about.copyright),
         ("license", &about.license),
     ];
-    let scales = Scales::of(model.scene);
+    let (version, identity) = match model.standard {
+        Standard::Fmi2 => ("2.0", "guid"),
+        Standard::Fmi3 => ("3.0", "instantiationToken"),
+    };
     xml.create_element("fmiModelDescription")
         .with_attributes([
-            ("fmiVersion", "2.0"),
+            ("fmiVersion", version),
             ("modelName", model.identifier),
-            ("guid", model.identity),
+            (identity, model.identity),
             ("description", sentence.as_str()),
             ("generationTool", concat!("cograin ", env!("CARGO_PKG_VERSION"))),
             ("variableNamingConvention", "structured"),
         ])
         .with_attributes(told.into_iter().filter_map(|(name, text)| Some((name, text.as_deref()?))))
         .write_inner_content(|xml| {
-            xml.create_element("CoSimulation")
-                .with_attribute(("modelIdentifier", model.identifier))
-                .with_attributes(CAPABILITIES)
-                .with_attribute(("maxOutputDerivativeOrder", if model.interface.has_rates() { "1" } else { "0" }))
-                .with_attribute((
-                    "providesDirectionalDerivative",
-                    if model.interface.has_derivatives() { "true" } else { "false" },
-                ))
-                .write_empty()?;
+            capabilities(xml, model)?;
             units(xml, model.interface)?;
             xml.create_element("LogCategories").write_inner_content(|xml| {
                 for (name, description) in LOG_CATEGORIES {
@@ -82,17 +89,44 @@ pub(super) fn write(model: &Model<'_>) -> io::Result<Vec<u8>> {
                 Ok(())
             })?;
             default_experiment(xml, model.scene)?;
-            xml.create_element("ModelVariables").write_inner_content(|xml| {
-                model
-                    .interface
-                    .variables()
-                    .iter()
-                    .enumerate()
-                    .try_for_each(|(index, it)| variable(xml, index, it, &scales))
-            })?;
-            structure(xml, model)
+            match model.standard {
+                Standard::Fmi2 => scalars(xml, model),
+                Standard::Fmi3 => arrays::write(xml, model),
+            }
         })?;
     Ok(xml.into_inner())
+}
+
+/// A writer that has written the declaration of XML.
+pub(super) fn new_xml() -> io::Result<Xml> {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    Ok(xml)
+}
+
+/// `CoSimulation`
+fn capabilities(xml: &mut Xml, model: &Model<'_>) -> io::Result<()> {
+    let (capabilities, derivatives): (&[_], _) = match model.standard {
+        Standard::Fmi2 => (&CAPABILITIES, "providesDirectionalDerivative"),
+        Standard::Fmi3 => (&CAPABILITIES_3, "providesDirectionalDerivatives"),
+    };
+    xml.create_element("CoSimulation")
+        .with_attribute(("modelIdentifier", model.identifier))
+        .with_attributes(capabilities.iter().copied())
+        .with_attribute(("maxOutputDerivativeOrder", if model.interface.has_rates() { "1" } else { "0" }))
+        .with_attribute((derivatives, if model.interface.has_derivatives() { "true" } else { "false" }))
+        .write_empty()?;
+    Ok(())
+}
+
+/// `ModelVariables` and `ModelStructure` of FMI 2.0.
+fn scalars(xml: &mut Xml, model: &Model<'_>) -> io::Result<()> {
+    let scales = Scales::of(model.scene);
+    let variables = model.interface.variables();
+    xml.create_element("ModelVariables").write_inner_content(|xml| {
+        variables.iter().enumerate().try_for_each(|(index, it)| variable(xml, index, it, &scales))
+    })?;
+    structure(xml, model)
 }
 
 /// One line about the scene.
@@ -147,47 +181,6 @@ fn shown_in(quantity: Quantity) -> Option<(&'static str, f64)> {
     }
 }
 
-/// How large quantities of a scene are: by these an importer chooses tolerances and axes.
-struct Scales {
-    /// Mean radius of the particles \[m\].
-    length: f64,
-    /// Their mass \[kg\].
-    mass: f64,
-    /// Magnitude of gravity \[m/s²\].
-    gravity: f64,
-}
-
-impl Scales {
-    /// Those of a scene.
-    fn of(scene: &Scene) -> Self {
-        let radii = scene.particles.iter().map(|particle| particle.radius);
-        let mass = scene.particles.iter().map(|it| it.density * it.radius * it.radius * it.radius);
-        Self {
-            length: radii.sum::<f64>() / scene.particles.len() as f64,
-            mass: mass.sum::<f64>() * (4.0 / 3.0 * std::f64::consts::PI),
-            gravity: scene.gravity.iter().map(|part| part * part).sum::<f64>().sqrt(),
-        }
-    }
-
-    /// A usual magnitude of a quantity, to three digits, where the scene tells one: a radius, the weight of all particles and what
-    /// follows of these.
-    fn nominal(&self, quantity: Quantity) -> Option<f64> {
-        let Self { length, mass, gravity } = *self;
-        let value = match quantity {
-            Quantity::Length => length,
-            Quantity::Mass => mass,
-            Quantity::Velocity => (gravity * length).sqrt(),
-            Quantity::GranularTemperature => gravity * length,
-            Quantity::Force => mass * gravity,
-            Quantity::Torque | Quantity::Energy => mass * gravity * length,
-            Quantity::Stiffness => mass * gravity / length,
-            _ => return None,
-        };
-        let rounded: f64 = format!("{value:.2e}").parse().ok()?;
-        (rounded.is_finite() && rounded > 0.0).then_some(rounded)
-    }
-}
-
 /// Communication steps of a scene that names an end and no interval.
 const STEPS: f64 = 100.0;
 
@@ -208,9 +201,8 @@ fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     Ok(())
 }
 
-/// One `ScalarVariable`; the value reference is the index in the table.
-fn variable(xml: &mut Xml, index: usize, variable: &Variable, scales: &Scales) -> io::Result<()> {
-    let reference = index.to_string();
+/// How a variable is given and when it changes, in words of the standard.
+fn kind_of(variable: &Variable) -> Vec<(&'static str, &'static str)> {
     let causality = match variable.causality {
         Causality::Input => "input",
         Causality::Output => "output",
@@ -228,32 +220,48 @@ fn variable(xml: &mut Xml, index: usize, variable: &Variable, scales: &Scales) -
         (Causality::Parameter, _) | (Causality::Output, Some(_)) => Some(("initial", "exact")),
         (Causality::Output, None) => Some(("initial", "calculated")),
     };
-    let kind = variable.quantity.of_type();
-    let number = |value: f64| if kind == Type::Integer { format!("{value:.0}") } else { format!("{value:?}") };
-    let start = variable.start.map(number).or(variable.start_text().map(str::to_owned));
-    let [minimum, maximum] = [variable.minimum, variable.maximum].map(|bound| bound.map(number));
+    [Some(("causality", causality)), Some(("variability", variability)), initial].into_iter().flatten().collect()
+}
+
+/// A value of a variable as it is written.
+fn number(variable: &Variable, value: f64) -> String {
+    if variable.quantity.of_type() == Type::Integer { format!("{value:.0}") } else { format!("{value:?}") }
+}
+
+/// What is measured, in which unit and between which bounds.
+fn measured(variable: &Variable, scales: &Scales) -> Vec<(&'static str, String)> {
     let is_parameter = variable.causality == Causality::Parameter;
-    let nominal = scales.nominal(variable.quantity).filter(|_| !is_parameter).map(|nominal| format!("{nominal:?}"));
-    let of_type = [
-        (kind != Type::String).then_some(("quantity", variable.quantity.name())),
-        variable.quantity.unit().map(|unit| ("unit", unit)),
-        shown_in(variable.quantity).map(|(name, _)| ("displayUnit", name)),
-        nominal.as_ref().map(|nominal| ("nominal", nominal.as_str())),
-        minimum.as_ref().map(|minimum| ("min", minimum.as_str())),
-        maximum.as_ref().map(|maximum| ("max", maximum.as_str())),
-        start.as_ref().map(|start| ("start", start.as_str())),
+    let is_real = variable.quantity.of_type() == Type::Real;
+    let nominal = scales.nominal(variable.quantity).filter(|_| !is_parameter && is_real);
+    let bound = |bound: Option<f64>| bound.map(|bound| number(variable, bound));
+    let told = [
+        ("quantity", (variable.quantity.of_type() != Type::String).then(|| variable.quantity.name().to_owned())),
+        ("unit", variable.quantity.unit().map(str::to_owned)),
+        ("displayUnit", shown_in(variable.quantity).map(|(name, _)| name.to_owned())),
+        ("nominal", nominal.map(|nominal| format!("{nominal:?}"))),
+        ("min", bound(variable.minimum)),
+        ("max", bound(variable.maximum)),
     ];
+    told.into_iter().filter_map(|(name, text)| Some((name, text?))).collect()
+}
+
+/// One `ScalarVariable`; the value reference is the index in the table.
+fn variable(xml: &mut Xml, index: usize, variable: &Variable, scales: &Scales) -> io::Result<()> {
+    let reference = index.to_string();
+    let start = variable.start.map(|start| number(variable, start)).or(variable.start_text().map(str::to_owned));
+    let measured = measured(variable, scales);
     xml.create_element("ScalarVariable")
         .with_attributes([
             ("name", variable.name.as_str()),
             ("valueReference", reference.as_str()),
             ("description", variable.description.as_str()),
-            ("causality", causality),
-            ("variability", variability),
         ])
-        .with_attributes(initial)
+        .with_attributes(kind_of(variable))
         .write_inner_content(|xml| {
-            xml.create_element(kind.name()).with_attributes(of_type.into_iter().flatten()).write_empty()?;
+            xml.create_element(variable.quantity.of_type().name(Standard::Fmi2))
+                .with_attributes(measured.iter().map(|(name, text)| (*name, text.as_str())))
+                .with_attributes(start.as_ref().map(|start| ("start", start.as_str())))
+                .write_empty()?;
             Ok(())
         })?;
     Ok(())

@@ -1,5 +1,7 @@
 //! The library that a unit carries: where it is looked for, and whether it is the right one.
 
+use super::functions::FUNCTIONS;
+use crate::interface::Standard;
 use object::read::NameOrOrdinal;
 use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
 use object::{Architecture, BinaryFormat, FileFlags, FileKind, Object, ObjectKind};
@@ -29,44 +31,6 @@ const LONGEST_MARK: usize = 120;
 fn built_by(mark: &str) -> &str {
     mark.trim_start_matches(MARK_BEGINS).trim_end_matches(';')
 }
-
-/// The functions that a co-simulation unit of FMI 2.0 has.
-pub(super) const FUNCTIONS: [&str; 34] = [
-    "fmi2CancelStep",
-    "fmi2DeSerializeFMUstate",
-    "fmi2DoStep",
-    "fmi2EnterInitializationMode",
-    "fmi2ExitInitializationMode",
-    "fmi2FreeFMUstate",
-    "fmi2FreeInstance",
-    "fmi2GetBoolean",
-    "fmi2GetBooleanStatus",
-    "fmi2GetDirectionalDerivative",
-    "fmi2GetFMUstate",
-    "fmi2GetInteger",
-    "fmi2GetIntegerStatus",
-    "fmi2GetReal",
-    "fmi2GetRealOutputDerivatives",
-    "fmi2GetRealStatus",
-    "fmi2GetStatus",
-    "fmi2GetString",
-    "fmi2GetStringStatus",
-    "fmi2GetTypesPlatform",
-    "fmi2GetVersion",
-    "fmi2Instantiate",
-    "fmi2Reset",
-    "fmi2SerializeFMUstate",
-    "fmi2SerializedFMUstateSize",
-    "fmi2SetBoolean",
-    "fmi2SetDebugLogging",
-    "fmi2SetFMUstate",
-    "fmi2SetInteger",
-    "fmi2SetReal",
-    "fmi2SetRealInputDerivatives",
-    "fmi2SetString",
-    "fmi2SetupExperiment",
-    "fmi2Terminate",
-];
 
 /// Why there is no library to package.
 #[derive(Debug, thiserror::Error)]
@@ -115,7 +79,7 @@ pub enum LibraryError {
         found: String,
     },
     /// It lacks a function.
-    #[error("{}: expected the functions of FMI 2.0, found none called {missing}", path.display())]
+    #[error("{}: expected the functions of FMI 2.0 and 3.0, found none called {missing}", path.display())]
     Function {
         /// Its path.
         path: PathBuf,
@@ -145,13 +109,25 @@ fn list(paths: &[PathBuf]) -> String {
     paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// How FMI 2.0 names a kind of machine.
+/// How FMI names a kind of machine.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Platform {
-    /// Folder of the library in the unit.
-    pub(super) folder: String,
+    /// Folder of the library in a unit of FMI 2.0.
+    folder: String,
+    /// The same in one of FMI 3.0.
+    tuple: String,
     /// End of the library's name.
     pub(super) suffix: &'static str,
+}
+
+impl Platform {
+    /// Folder of the library in a unit.
+    pub(super) fn folder(&self, standard: Standard) -> &str {
+        match standard {
+            Standard::Fmi2 => &self.folder,
+            Standard::Fmi3 => &self.tuple,
+        }
+    }
 }
 
 /// A library that a unit carries.
@@ -197,7 +173,7 @@ impl Library {
             }
             platforms.insert(image.platform().map_err(|found| LibraryError::Platform { path: path_of(), found })?);
             let functions = image.functions().map_err(|found| LibraryError::Kind { path: path_of(), found })?;
-            if let Some(missing) = FUNCTIONS.into_iter().find(|name| !functions.contains(name.as_bytes())) {
+            if let Some(missing) = FUNCTIONS.concat().into_iter().find(|name| !functions.contains(name.as_bytes())) {
                 return Err(LibraryError::Function { path: path_of(), missing });
             }
         }
@@ -261,18 +237,19 @@ impl<'a> Image<'a> {
             BinaryFormat::MachO => ("macOS", "darwin", "darwin", ".dylib"),
             _ => ("another system", "", "", ""),
         };
-        let folder = match processor {
+        let named = match processor {
             _ if name.is_empty() => None,
-            Architecture::I386 => Some(format!("{short}32")),
-            Architecture::X86_64 => Some(format!("{short}64")),
-            Architecture::Arm => Some(format!("aarch32-{name}")),
-            Architecture::Aarch64 => Some(format!("aarch64-{name}")),
-            Architecture::Riscv32 => Some(format!("riscv32-{name}")),
-            Architecture::Riscv64 => Some(format!("riscv64-{name}")),
+            Architecture::I386 => Some((format!("{short}32"), "x86")),
+            Architecture::X86_64 => Some((format!("{short}64"), "x86_64")),
+            Architecture::Arm => Some((format!("aarch32-{name}"), "aarch32")),
+            Architecture::Aarch64 => Some((format!("aarch64-{name}"), "aarch64")),
+            Architecture::Riscv32 => Some((format!("riscv32-{name}"), "riscv32")),
+            Architecture::Riscv64 => Some((format!("riscv64-{name}"), "riscv64")),
             _ => None,
         };
         let machine = || format!("{system} on {}", format!("{processor:?}").to_lowercase());
-        Ok(Platform { folder: folder.ok_or_else(machine)?, suffix })
+        let (folder, processor) = named.ok_or_else(machine)?;
+        Ok(Platform { folder, tuple: format!("{processor}-{name}"), suffix })
     }
 
     /// Names of the functions that it offers, as C has them.

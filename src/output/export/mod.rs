@@ -1,8 +1,9 @@
-//! A scene as an FMI 2.0 co-simulation unit: `modelDescription.xml`, resources and library in one `.fmu`.
+//! A scene as a co-simulation unit of FMI 2.0 or 3.0: `modelDescription.xml`, resources and library in one `.fmu`.
 
 mod archive;
 mod description;
 mod experiment;
+mod functions;
 mod library;
 mod names;
 mod nodes;
@@ -11,6 +12,7 @@ mod picture;
 mod resources;
 #[cfg(test)]
 mod sample_library;
+mod terminals;
 
 pub use description::LOG_CATEGORIES;
 pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, STANDARD_LIBRARY, find_libraries};
@@ -19,7 +21,7 @@ pub use resources::{Content, Contents, Resource, ResourceError, identity, read_r
 use crate::engine::simulation::{RunError, Simulation};
 use crate::engine::state::State;
 use crate::engine::state::snapshot::SnapshotError;
-use crate::interface::{ChosenError, Interface};
+use crate::interface::{ChosenError, Interface, Standard};
 use crate::scene::{Scene, Source};
 use experiment::Experiment;
 use library::Library;
@@ -68,7 +70,7 @@ const LICENSES: [(&str, &str); 3] = [
 ];
 
 /// Packages a scene, in the state of `state` if there is one, with the libraries at `libraries`, one for each platform, as the unit
-/// `output`.
+/// `output` that speaks an edition of the standard.
 ///
 /// The same scene, state and libraries give the same bytes. The file appears whole or not at all. A scene that does not start is
 /// refused.
@@ -77,6 +79,7 @@ pub fn export(
     scene: &Arc<Scene>,
     state: Option<&State>,
     libraries: &[PathBuf],
+    standard: Standard,
     output: &Path,
 ) -> Result<(), PackageError> {
     let libraries = Library::read_all(libraries)?;
@@ -93,16 +96,21 @@ pub fn export(
     let model = description::Model {
         identifier: &identifier,
         identity: &identity(source, bytes.as_deref()),
+        standard,
         scene,
         interface: &interface,
     };
 
     let mut entries = vec![Resource::new("modelDescription.xml", description::write(&model).map_err(written)?)];
-    let platforms: Vec<_> = libraries.iter().map(|library| library.platform.folder.as_str()).collect();
+    let platforms: Vec<_> = libraries.iter().map(|library| library.platform.folder(standard)).collect();
     let picture = picture::png(scene, simulation.state());
     let steps = page::steps(scene, &simulation);
     // A scene that starts and then stops by itself has a unit without an experiment.
-    let experiment = Experiment::run(simulation, &interface).ok();
+    // The layered standard has no names for the elements of arrays.
+    let experiment = match standard {
+        Standard::Fmi2 => Experiment::run(simulation, &interface).ok(),
+        Standard::Fmi3 => None,
+    };
     let page = page::Page {
         model: &model,
         source,
@@ -113,9 +121,13 @@ pub fn export(
         has_experiment: experiment.is_some(),
     };
     let page = page.write();
-    entries.extend(picture.map(|picture| Resource::new("model.png", picture)));
+    entries.extend(picture.map(|picture| Resource::new(page::picture(standard), picture)));
+    if standard == Standard::Fmi3 {
+        let terminals = terminals::write(&model).map_err(written)?;
+        entries.extend(terminals.map(|terminals| Resource::new("terminalsAndIcons/terminalsAndIcons.xml", terminals)));
+    }
     entries.extend(libraries.into_iter().map(|Library { platform, bytes }| {
-        let path = format!("binaries/{}/{identifier}{}", platform.folder, platform.suffix);
+        let path = format!("binaries/{}/{identifier}{}", platform.folder(standard), platform.suffix);
         Resource::new(path, Content::Program(bytes))
     }));
     entries.push(Resource::new("documentation/index.html", page));

@@ -2,7 +2,7 @@
 
 use super::description::{Model, about, communication_step};
 use crate::engine::simulation::Simulation;
-use crate::interface::{Causality, Variability, Variable};
+use crate::interface::{Causality, Standard, Variability, Variable};
 use crate::scene::{Boundary, Grid, Scene, Source, Step};
 use quick_xml::escape::escape;
 use std::fmt::Write;
@@ -25,6 +25,14 @@ pub(super) struct Page<'a> {
     pub(super) has_experiment: bool,
 }
 
+/// Where the picture stands in the unit.
+pub(super) fn picture(standard: Standard) -> &'static str {
+    match standard {
+        Standard::Fmi2 => "model.png",
+        Standard::Fmi3 => "terminalsAndIcons/icon.png",
+    }
+}
+
 /// How the page looks.
 const STYLE: &str = "body{font:16px/1.5 sans-serif;max-width:60em;margin:2em auto;padding:0 1em}\
     table{border-collapse:collapse}td,th{border-bottom:1px solid #ccc;padding:.2em .7em;text-align:left;vertical-align:top}\
@@ -43,18 +51,28 @@ const USE: &str = "<h2>How to step it</h2>\n<ol>\n\
     <p>States can be saved and restored, so a master may repeat a step until both sides agree. A step that fails returns \
     <code>fmi2Discard</code> and leaves the state of its beginning; the logger gets the reason.</p>\n";
 
+/// How the variables below are those of FMI 3.0.
+const ARRAYS: &str = "<p><strong>Arrays.</strong> Components that stand in one row below are one array where all are there: \
+    <code>floor.force.x, .y, .z</code> is <code>floor.force</code> with three elements, <code>skin.node[1].force.x</code> and what \
+    follows it <code>skin.node.force</code> with a row for each node.</p>\n";
+
 impl Page<'_> {
     /// The page.
     pub(super) fn write(&self) -> String {
         let Self { model, .. } = self;
         let picture = if self.has_picture {
-            "<p><img src=\"../model.png\" alt=\"the particles and boundaries at the start\"></p>\n"
+            let file = picture(model.standard);
+            format!("<p><img src=\"../{file}\" alt=\"the particles and boundaries at the start\"></p>\n")
         } else {
-            ""
+            String::new()
+        };
+        let (usage, arrays) = match model.standard {
+            Standard::Fmi2 => (USE.to_owned(), ""),
+            Standard::Fmi3 => (USE.replace("fmi2", "fmi3"), ARRAYS),
         };
         format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"><title>{name}</title><style>{STYLE}</style></head>\n\
-             <body>\n<h1>{name}</h1>\n<p>{about}.</p>\n{picture}{facts}{USE}{steps}\
+             <body>\n<h1>{name}</h1>\n<p>{about}.</p>\n{picture}{facts}{usage}{arrays}{steps}\
              <h2>What to set</h2>\n{inputs}<h2>What to read</h2>\n{outputs}{elements}\
              <h2>Parameters</h2>\n<p>Fixed ones before the end of the initialisation mode, tunable ones also between steps.</p>\n{parameters}\
              {origin}</body>\n</html>\n",
@@ -70,6 +88,15 @@ impl Page<'_> {
         )
     }
 
+    /// What made the unit, and which edition of the standard it speaks.
+    fn made_by(&self) -> String {
+        let edition = match self.model.standard {
+            Standard::Fmi2 => "2.0",
+            Standard::Fmi3 => "3.0",
+        };
+        format!("cograin {}, FMI {edition} co-simulation", env!("CARGO_PKG_VERSION"))
+    }
+
     /// What the unit is, in a table.
     fn facts(&self) -> String {
         let scene = self.model.scene;
@@ -81,7 +108,7 @@ impl Page<'_> {
             ("particles", Some(scene.particles.len().to_string())),
             ("boundaries", Some(list(scene.boundaries.iter().map(|boundary| boundary.name.as_str())))),
             ("platforms", Some(list(self.platforms.iter().copied()))),
-            ("made by", Some(format!("cograin {}, FMI 2.0 co-simulation", env!("CARGO_PKG_VERSION")))),
+            ("made by", Some(self.made_by())),
             ("GUID", Some(self.model.identity.to_owned())),
         ];
         let mut rows = String::new();

@@ -1,7 +1,7 @@
 //! Shared libraries for tests: headers, the names of functions and the mark, and no code.
 
 use super::LIBRARY_MARK;
-use super::library::FUNCTIONS;
+use super::functions::FUNCTIONS;
 
 /// What is made.
 #[derive(Clone, Copy)]
@@ -44,7 +44,7 @@ impl Sample {
 
     /// The file.
     pub(super) fn bytes(self) -> Vec<u8> {
-        let names: Vec<&str> = FUNCTIONS.into_iter().filter(|name| *name != self.without).collect();
+        let names: Vec<&str> = FUNCTIONS.concat().into_iter().filter(|name| *name != self.without).collect();
         let mut file = match self.format {
             Format::Elf => self.elf(&names),
             Format::Pe => self.pe(&names),

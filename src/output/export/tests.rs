@@ -73,7 +73,7 @@ impl Folder {
     fn exported(&self, name: &str, state: Option<&State>) -> BTreeMap<String, Vec<u8>> {
         let (source, output) = (source(), self.0.join(name));
         let scene = Arc::new(Scene::from_source(&source).unwrap());
-        export(&source, &scene, state, &[self.library()], &output).unwrap();
+        export(&source, &scene, state, &[self.library()], Standard::Fmi2, &output).unwrap();
         self.read(name)
     }
 
@@ -273,7 +273,7 @@ fn what_the_scene_says_of_itself_stands_in_the_description_the_page_and_the_lice
     let source = Source { text: format!("{SCENE}\n{said}"), ..source() };
     let scene = Arc::new(Scene::from_source(&source).unwrap());
     let folder = Folder::new();
-    export(&source, &scene, None, &[folder.library()], &folder.0.join("unit.fmu")).unwrap();
+    export(&source, &scene, None, &[folder.library()], Standard::Fmi2, &folder.0.join("unit.fmu")).unwrap();
     let unit = folder.read("unit.fmu");
     let description = elements(&unit["modelDescription.xml"]);
     for (name, text) in
@@ -295,7 +295,7 @@ fn a_unit_has_a_library_for_each_platform_a_picture_a_page_and_licences() {
     for (sample, path) in samples.iter().zip(&libraries) {
         fs::write(path, sample.bytes()).unwrap();
     }
-    export(&source, &scene, None, &libraries, &folder.0.join("two.fmu")).unwrap();
+    export(&source, &scene, None, &libraries, Standard::Fmi2, &folder.0.join("two.fmu")).unwrap();
     let unit = folder.read("two.fmu");
     let binaries: Vec<&str> = unit.keys().map(String::as_str).filter(|path| path.starts_with("binaries")).collect();
     assert_eq!(binaries, ["binaries/darwin64/two.dylib", "binaries/linux64/two.so", "binaries/win64/two.dll"]);
@@ -406,10 +406,10 @@ fn nothing_is_left_where_a_unit_cannot_be_written() {
     let (source, library) = (source(), [folder.library()]);
     let scene = Arc::new(Scene::from_source(&source).unwrap());
     let missing = folder.0.join("missing/unit.fmu");
-    let message = export(&source, &scene, None, &library, &missing).unwrap_err().to_string();
+    let message = export(&source, &scene, None, &library, Standard::Fmi2, &missing).unwrap_err().to_string();
     assert!(message.contains("missing/unit.fmu"), "{message}");
     fs::create_dir(folder.0.join("taken.fmu")).unwrap();
-    assert!(export(&source, &scene, None, &library, &folder.0.join("taken.fmu")).is_err());
+    assert!(export(&source, &scene, None, &library, Standard::Fmi2, &folder.0.join("taken.fmu")).is_err());
     let left: Vec<_> = fs::read_dir(&*folder.0).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(left.len(), 2, "{left:?}: only the library and the folder in the way are right");
 }
@@ -426,4 +426,39 @@ fn a_unit_that_begins_in_a_state_holds_it_and_names_its_displacements() {
     let elements = elements(&unit["modelDescription.xml"]);
     let place = elements.iter().position(|it| it.get("name") == Some("floor.displacement.z")).unwrap();
     assert_eq!(elements[place + 1].get("start"), Some("1e-5"));
+}
+
+#[test]
+fn a_unit_of_fmi_3_has_arrays_terminals_and_folders_of_its_own() {
+    let (source, folder) = (source(), Folder::new());
+    let scene = Arc::new(Scene::from_source(&source).unwrap());
+    export(&source, &scene, None, &[folder.library()], Standard::Fmi3, &folder.0.join("three.fmu")).unwrap();
+    let unit = folder.read("three.fmu");
+    assert!(unit.contains_key("binaries/x86_64-linux/three.so") && unit.contains_key("terminalsAndIcons/icon.png"));
+    assert!(!unit.contains_key("model.png"), "that is the picture of FMI 2.0");
+    let description = elements(&unit["modelDescription.xml"]);
+    assert_eq!(description[0].get("instantiationToken"), Some(identity(&source, None).as_str()));
+    let interface = Interface::of(&scene);
+    let arrays = interface.arrays(&scene);
+    let variables: Vec<_> = description.iter().filter(|it| it.get("causality").is_some()).collect();
+    assert_eq!(variables.len(), arrays.len() + 1, "and the time");
+    for (place, (variable, array)) in variables.iter().zip(&arrays).enumerate() {
+        assert_eq!(
+            (variable.get("name"), variable.get("valueReference")),
+            (Some(&*array.name), Some(&*place.to_string()))
+        );
+    }
+    assert_eq!(variables[arrays.len()].get("causality"), Some("independent"));
+    let elements_in_all: usize = arrays.iter().map(crate::interface::Array::count).sum();
+    assert_eq!(elements_in_all, interface.variables().len(), "every value stands in one array");
+    let of = |name: &str| arrays.iter().find(|array| array.name == name).map(|array| array.dimensions.clone());
+    assert_eq!(of("floor.force"), Some(vec![3]));
+    assert_eq!(of("floor.displacement.z"), Some(vec![]), "y is not driven: the others stay single");
+    let terminals = elements(&unit["terminalsAndIcons/terminalsAndIcons.xml"]);
+    let names = |kind: &str| {
+        let named = terminals.iter().filter(|it| it.name == kind);
+        named.filter_map(|it| it.get("name").or(it.get("variableName"))).collect::<Vec<_>>()
+    };
+    assert_eq!(names("Terminal"), ["floor", "side", "grip"]);
+    assert!(names("TerminalMemberVariable").contains(&"floor.displacement.z"));
 }

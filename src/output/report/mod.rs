@@ -216,6 +216,10 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .iter()
             .map(|force| format!("force {} on {}", force.name, counted(force.members.len(), "particle"))),
     );
+    uses.extend(scene.fluid.iter().map(|fluid| {
+        let motion = if fluid.velocity.is_driven() { "driven" } else { "given" };
+        format!("fluid {}: drag {}, its velocity {motion}", fluid.name, fluid.drag.name())
+    }));
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
     uses.extend(scene.grids.iter().map(grid));
     uses.extend(exchange(scene));

@@ -1,6 +1,6 @@
 //! What `cograin variables` tells: inputs, outputs and parameters of a scene, as its unit and its tables have them.
 
-use crate::interface::{Causality, Interface, Type, Variability, Variable};
+use crate::interface::{Causality, Interface, Standard, Type, Variability, Variable};
 use crate::output::results::Refusal;
 use crate::scene::Scene;
 use serde::Serialize;
@@ -69,7 +69,7 @@ impl Row {
                 Variability::Discrete => "discrete",
                 Variability::Continuous => "continuous",
             },
-            kind: variable.quantity.of_type().name(),
+            kind: variable.quantity.of_type().name(Standard::Fmi2),
             unit: variable.quantity.unit(),
             start: variable.start,
             minimum: variable.minimum,
@@ -80,7 +80,7 @@ impl Row {
 
     /// Unit, or what it is without one; `1` of a pure number.
     fn unit(&self) -> &'static str {
-        self.unit.unwrap_or(if self.kind == Type::Real.name() { "1" } else { self.kind })
+        self.unit.unwrap_or(if self.kind == Type::Real.name(Standard::Fmi2) { "1" } else { self.kind })
     }
 }
 

@@ -3,7 +3,7 @@
 use super::summary::DeepestContact;
 use crate::base::geometry::lattice::STRAINS;
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
-use crate::engine::state::Clock;
+use crate::engine::state::{Clock, Separated, TouchedThrough};
 use crate::interface::{Interface, MOST_COLUMNS};
 use crate::laws::contact::{Material, MaterialPair, Properties, property};
 use crate::scene::exchange::Amount;
@@ -54,6 +54,7 @@ pub fn course(simulation: &Simulation) -> Vec<String> {
     let scene = simulation.scene();
     let mut remarks = Vec::new();
     remarks.extend(overlap(simulation));
+    remarks.extend(through(simulation));
     remarks.extend(full(scene, simulation));
     remarks.extend(missed(scene, simulation));
     remarks
@@ -434,6 +435,31 @@ fn overlap(simulation: &Simulation) -> Option<String> {
         DeepestContact::of(simulation).filter(|_| overlap > DEEP_OVERLAP)?;
     Some(format!(
         "the largest overlap is {overlap:.3} of a radius, of {one} and {other} at t = {time:e} s; contact laws hold for small ones"
+    ))
+}
+
+/// On particles that touch each other through a surface, or soon may.
+fn through(simulation: &Simulation) -> Option<String> {
+    let (scene, state) = (simulation.scene(), simulation.state());
+    let name = |boundary: u32| &scene.boundaries[boundary as usize].name;
+    let advice = "contacts of particles do not know surfaces: let what is on each side be of a material of its own, without a [contact] law for both";
+    if let Some(TouchedThrough { particles, boundary, time }) = state.through.first {
+        let [one, other] = particles.map(|named| named.number.unwrap_or_else(|| simulation.number(named.index)));
+        return Some(format!(
+            "[boundary.{}]: particles {one} and {other} touched each other through it at t = {time:e} s; {advice}",
+            name(boundary)
+        ));
+    }
+    let Separated { list, entry, boundary } = *state.through.pairs.first()?;
+    let (list, entry) = (&state.contacts[list as usize], entry as usize);
+    let number = |slot: u32| {
+        let index = state.particles.id[slot as usize];
+        state.particles.number_of_inserted(index).unwrap_or_else(|| simulation.number(index))
+    };
+    let [one, other] = [list.first[entry], list.second[entry]].map(number);
+    Some(format!(
+        "[boundary.{}]: particles {one} and {other} are near each other on both sides of it and may touch through it; {advice}",
+        name(boundary)
     ))
 }
 

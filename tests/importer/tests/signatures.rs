@@ -34,11 +34,14 @@ fn c_type(ours: &str) -> String {
 fn ours() -> BTreeMap<String, String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fmu/src");
     let mut found = BTreeMap::new();
-    for entry in fs::read_dir(&folder).unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
-        let path = entry.expect("the folder can be read").path();
-        let Ok(text) = fs::read_to_string(&path) else { continue };
+    for name in ["lib.rs", "v2/mod.rs", "v2/values.rs"] {
+        let path = folder.join(name);
+        let text = fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         for rest in text.split("#[unsafe(no_mangle)]").skip(1) {
             let (_, rest) = rest.split_once(" fn ").expect("a function follows");
+            if !rest.starts_with("fmi2") {
+                continue;
+            }
             let (head, _) = rest.split_once('{').expect("a function has a body");
             let (name, rest) = head.split_once('(').expect("a function has parameters");
             let (parameters, result) = rest.rsplit_once(')').expect("a function has parameters");

@@ -147,10 +147,10 @@ pub(crate) struct Batches<'a, B> {
     pub width: Width,
     /// Who looks for the deepest contact.
     pub deepest: &'a DeepestSearch,
-    /// What conducts heat, if anything does.
-    pub conducting: Option<Conducting<'a>>,
     /// Whether contacts are followed one by one.
     pub follows: bool,
+    /// What conducts heat, if anything does.
+    pub conducting: Option<Conducting<'a>>,
 }
 
 impl<B: Bodies> Batches<'_, B> {

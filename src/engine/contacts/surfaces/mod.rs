@@ -238,12 +238,12 @@ impl AtSurface {
             step: work.context.step,
             width: work.context.width,
             deepest: &work.deepest[self.index],
+            follows: self.follower.is_some(),
             // What is adiabatic takes none of the losses either.
             conducting: self
                 .law
                 .conducting(self.table.uniform_entry_with(self.material))
                 .filter(|_| work.conducts && self.share_of_heat > 0.0),
-            follows: self.follower.is_some(),
         }
     }
 
@@ -363,6 +363,7 @@ impl Pass for SurfacePass {
             }
             result = result.and(surface.book(state, workspace.loads.iter().skip(place).step_by(count)));
         }
+        state.through.look(&state.contacts, &state.particles, state.clock.time);
         result
     }
 
@@ -413,14 +414,15 @@ impl Pass for SurfacePass {
                 }));
             }
         }
+        self.find_separated(state);
     }
 }
 
 impl Stiffness for SurfacePass {
-    fn stiffness(&self, state: &State, ahead: &SearchLimits, tell: &mut dyn FnMut(Link)) {
+    fn stiffness(&self, state: &State, ahead: &SearchLimits, context: &Context, tell: &mut dyn FnMut(Link)) {
         for surface in &self.surfaces {
             match surface.plane_list(state) {
-                Some(list) => listed::stiffness(&list, state, ahead, tell),
+                Some(list) => listed::stiffness(&list, state, ahead, context, tell),
                 None => surface.stiffness_at_features(state, ahead, tell),
             }
         }

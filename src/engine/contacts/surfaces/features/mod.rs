@@ -9,6 +9,7 @@ mod at_feet;
 mod columns;
 mod on_planes;
 mod standing;
+mod through;
 mod together;
 mod told;
 

@@ -162,14 +162,17 @@ impl AtSurface {
     /// The same where it stands.
     fn encounters_at(&self, at: &MovingSurface, state: &State, found: &mut Encounters) {
         let (list, law, mut feet) = (self.list(state), &self.law.law, Feet::default());
+        let mut energies = found.energies;
         for (place, &slot) in list.near.particle.iter().enumerate() {
             let touches = || list.particle.binary_search(&slot).is_ok();
             let Some(meeting) = found.meeting(state, (slot, None), touches) else { continue };
             if let Some((_, geometry)) = self.nearest(at, state, (place, slot), &mut feet) {
                 let row = self.row(state, slot);
-                found.add(meeting, (law, row, &geometry.contact), state, (slot, None, Some(list.boundary)));
+                let bodies = (slot, None, Some(list.boundary));
+                found.add(&mut energies, meeting, (law, row, &geometry.contact), state, bodies);
             }
         }
+        found.energies = energies;
     }
 
     /// Elastic energy of the contacts with features \[J\].

@@ -1,14 +1,15 @@
-//! The functions that read and set variables, derivatives and status.
+//! The functions of FMI 2.0 that read and set variables, derivatives and status.
 
 use crate::calls::{self, Call};
 use crate::guard::{call, cancel};
-use crate::host_memory::{Items, Target, text, utf8};
+use crate::host_memory::{Items, Target};
 use crate::refusal::Refusal;
+use crate::shared;
 use crate::types::{
     Boolean, Component, LAST_SUCCESSFUL_TIME, PENDING_STATUS, Reference, STEP_STATUS, Status, TERMINATED, Text,
 };
 use cograin::interface::Value;
-use std::ffi::{CStr, c_int};
+use std::ffi::c_int;
 
 /// Reads variables of one type, all or nothing.
 ///
@@ -25,7 +26,7 @@ unsafe fn get<T: Copy>(
         // SAFETY: demands of FMI 2.0.
         let (references, targets) =
             unsafe { (Items::new("vr", references, count)?, Target::array("value", values, count)?) };
-        for (place, value) in instance.values(references, kind)?.iter().enumerate() {
+        for (place, value) in instance.values(references.indices(), kind)?.iter().enumerate() {
             targets.put(place, convert(*value));
         }
         Ok(())
@@ -84,9 +85,7 @@ pub unsafe extern "C" fn fmi2GetString(
         // SAFETY: demands of FMI 2.0.
         let (references, targets) =
             unsafe { (Items::new("vr", references, count)?, Target::array("value", values, count)?) };
-        let texts = instance.texts(references)?;
-        targets.put_all(&texts.into_iter().map(CStr::as_ptr).collect::<Vec<_>>());
-        Ok(())
+        shared::put_texts(instance, references.indices(), &targets)
     })
 }
 
@@ -102,7 +101,7 @@ pub unsafe extern "C" fn fmi2SetReal(
         // SAFETY: demands of FMI 2.0.
         let (references, values) =
             unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
-        instance.set(references, values, "Real")
+        instance.set(references.indices(), values, "Real")
     })
 }
 
@@ -118,7 +117,7 @@ pub unsafe extern "C" fn fmi2SetInteger(
         // SAFETY: demands of FMI 2.0.
         let (references, values) =
             unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
-        instance.set(references, values, "Integer")
+        instance.set(references.indices(), values, "Integer")
     })
 }
 
@@ -136,7 +135,7 @@ pub unsafe extern "C" fn fmi2SetBoolean(
             Items::new("value", values, count)?;
             Items::new("vr", references, count)?
         };
-        instance.refuse_to_set(references, "Boolean")
+        instance.refuse_type(references.indices(), "Boolean")
     })
 }
 
@@ -152,12 +151,8 @@ pub unsafe extern "C" fn fmi2SetString(
         // SAFETY: demands of FMI 2.0.
         let (references, values) =
             unsafe { (Items::new("vr", references, count)?, Items::new("value", values, count)?) };
-        // No text is read for a wrong reference.
-        instance.check_texts(references)?;
         // SAFETY: demands of FMI 2.0.
-        let values = values.iter().map(|value| utf8("a value", unsafe { text(value) }));
-        instance.set_texts(references, values.collect::<Result<_, _>>()?);
-        Ok(())
+        unsafe { shared::take_texts(instance, references.indices(), values) }
     })
 }
 
@@ -201,7 +196,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
                 Target::array("value", values, count)?,
             )
         };
-        targets.put_all(&instance.output_derivatives(references, orders)?);
+        targets.put_all(&instance.output_derivatives(references.indices().zip(orders.iter()))?);
         Ok(())
     })
 }
@@ -227,7 +222,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 Target::array("dvUnknown", derivatives, unknown_count)?,
             )
         };
-        targets.put_all(&instance.directional_derivatives(unknowns, knowns, direction)?);
+        targets.put_all(&instance.directional_derivatives(unknowns.indices(), knowns.indices(), direction)?);
         Ok(())
     })
 }

@@ -1,9 +1,9 @@
 //! How far speeds, contacts and bonds may change until the stable time step is computed again.
 
-use super::Simulation;
 use crate::engine::bodies::RigidBody;
 use crate::engine::boundaries::course;
 use crate::engine::contacts::{FASTER, SearchLimits};
+use crate::engine::simulation::Simulation;
 use crate::engine::stability;
 use crate::engine::state::Row;
 use crate::laws::bond::creation::Window;
@@ -34,38 +34,38 @@ const STRAINED: [f64; 2] = [0.25, 5e-3];
 
 /// How far is to be foreseen.
 #[derive(Clone, Copy)]
-pub(super) struct Horizon {
+pub(in crate::engine::simulation) struct Horizon {
     /// How much faster than now anything may become.
-    pub(super) faster: f64,
+    pub(in crate::engine::simulation) faster: f64,
     /// Whether time steps are far below the stable one: then a bound that is a little lower costs nothing.
-    pub(super) is_far: bool,
+    pub(in crate::engine::simulation) is_far: bool,
 }
 
 impl Horizon {
     /// No further than it has to be.
-    pub(super) const NEAR: Self = Self { faster: FASTER, is_far: false };
+    pub(in crate::engine::simulation) const NEAR: Self = Self { faster: FASTER, is_far: false };
 }
 
 /// What is foreseen.
-pub(super) struct LookAhead {
+pub(in crate::engine::simulation) struct LookAhead {
     /// How far.
-    pub(super) ahead: SearchLimits,
+    pub(in crate::engine::simulation) ahead: SearchLimits,
     /// Half of the speed at which bodies may meet \[m/s\].
-    pub(super) speed: f64,
+    pub(in crate::engine::simulation) speed: f64,
     /// The largest speed of anything \[m/s\].
-    pub(super) fastest: f64,
+    pub(in crate::engine::simulation) fastest: f64,
     /// Whether nothing moves, and no load is about to move anything.
-    pub(super) rests: bool,
+    pub(in crate::engine::simulation) rests: bool,
     /// By how much a cell that is deformed may bring neighbours nearer until the next look \[m\].
-    pub(super) strained: f64,
+    pub(in crate::engine::simulation) strained: f64,
     /// Whether it is a dense flow: impacts of bodies that are in no list do not limit the time step. Never where that is near the
     /// stable one.
-    pub(super) is_dense: bool,
+    pub(in crate::engine::simulation) is_dense: bool,
 }
 
 impl LookAhead {
     /// The way of the fastest and what comes towards it until the next look, at time steps of this length \[s\] \[m\].
-    pub(super) fn way(&self, step: f64) -> f64 {
+    pub(in crate::engine::simulation) fn way(&self, step: f64) -> f64 {
         way(self.is_dense, self.fastest, step)
     }
 }
@@ -79,7 +79,12 @@ fn way(is_dense: bool, fastest: f64, step: f64) -> f64 {
 impl Simulation {
     /// What is to be foreseen at time steps of about this length \[s\], so far, where the network had this root at the last look \[1/s\]
     /// (0 if there was none).
-    pub(super) fn sight(&self, step: f64, Horizon { faster, is_far }: Horizon, root: f64) -> LookAhead {
+    pub(in crate::engine::simulation) fn sight(
+        &self,
+        step: f64,
+        Horizon { faster, is_far }: Horizon,
+        root: f64,
+    ) -> LookAhead {
         let fastest = self.system().fastest();
         let boundaries = course::speeds(&self.scene, &self.bodies, &self.state, step).collect::<Vec<_>>();
         let streaming = self.cell.as_ref().map_or(0.0, |cell| cell.speed(&self.state));

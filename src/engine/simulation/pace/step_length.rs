@@ -1,6 +1,6 @@
 //! How long the next time steps are, by the stable one, by motion and by what the scene asks for.
 
-use super::Simulation;
+use crate::engine::simulation::Simulation;
 use crate::engine::transfer;
 use crate::laws::contact::impact::LONGEST_PART;
 use crate::scene::{Bond, Insertion, Run, Step};
@@ -11,7 +11,7 @@ const LENGTHENING: f64 = 1.1;
 /// How much longer than it would be chosen now an automatic time step may be in the first [`BETWEEN_LOOKS`] time steps of a
 /// communication step: with 0.8 of the stable one it is then stable all the same.
 ///
-/// [`BETWEEN_LOOKS`]: super::pace::BETWEEN_LOOKS
+/// [`BETWEEN_LOOKS`]: super::due::BETWEEN_LOOKS
 const SLACK: f64 = 1.25;
 
 /// By which factor an automatic time step changes within a communication step, or by powers of it.
@@ -22,7 +22,7 @@ const MOST_WAY: [f64; 2] = [0.1, 0.125];
 
 impl Simulation {
     /// The automatic time step that belongs to a stable one \[s\], infinite where nothing limits it; none where it is given.
-    pub(super) fn automatic_step(&self, stable: f64) -> Option<f64> {
+    pub(in crate::engine::simulation) fn automatic_step(&self, stable: f64) -> Option<f64> {
         if self.scene.heat.frozen {
             return self.stride();
         }
@@ -31,7 +31,7 @@ impl Simulation {
     }
 
     /// The time step of heat while nothing moves \[s\], infinite where nothing limits it; none where it is given.
-    pub(super) fn stride(&self) -> Option<f64> {
+    pub(in crate::engine::simulation) fn stride(&self) -> Option<f64> {
         let heat = self.state.heat.as_ref().filter(|_| self.scene.run.step.is_automatic())?;
         Some(if heat.stride > 0.0 { heat.stride } else { transfer::longest_step(Some(heat)) })
     }
@@ -59,14 +59,14 @@ impl Simulation {
     }
 
     /// Whether what moves fastest goes too far in an automatic time step of this length \[s\].
-    pub(super) fn outruns(&self, step: f64) -> bool {
+    pub(in crate::engine::simulation) fn outruns(&self, step: f64) -> bool {
         self.scene.run.step.is_automatic()
             && self.state.clock.speed * step > MOST_WAY[1] * self.search.smallest_radius()
     }
 
     /// Whether a given time step is divided where the stable one is below it. What knows the step by its number, or relaxes in it, needs
     /// the very step that was given.
-    pub(super) fn divides(&self) -> bool {
+    pub(in crate::engine::simulation) fn divides(&self) -> bool {
         let Run { step, allow_unstable, strict_step, .. } = self.scene.run;
         let needs =
             |bond: &Bond| bond.keys.needs_given_step().or(bond.keys.shortest_relaxation().map(|_| "")).is_some();
@@ -82,7 +82,7 @@ impl Simulation {
     }
 
     /// Divides a given time step where the stable one has fallen below it. Returns whether it has.
-    pub(super) fn divide_given(&mut self) -> bool {
+    pub(in crate::engine::simulation) fn divide_given(&mut self) -> bool {
         let is_above = self.state.clock.step > self.state.clock.stable;
         let Some(step) = self.whole_part().filter(|_| is_above) else { return false };
         self.state.clock.step = step;
@@ -90,21 +90,21 @@ impl Simulation {
     }
 
     /// Joins the parts of a given time step again, where the stable one is far enough above them.
-    pub(super) fn join_given(&mut self) {
+    pub(in crate::engine::simulation) fn join_given(&mut self) {
         if let Some(step) = self.whole_part() {
             self.state.clock.step = step.max(self.state.clock.step);
         }
     }
 
     /// Notes a time step of this length \[s\], where it is shorter than the scene says.
-    pub(super) fn count_divided(&mut self) {
+    pub(in crate::engine::simulation) fn count_divided(&mut self) {
         if let Step::Given(step) = self.scene.run.step {
             self.state.clock.divided += u64::from(self.state.clock.step < step);
         }
     }
 
     /// Shortens an automatic time step when the stable one has become shorter, or what moves goes farther.
-    pub(super) fn shorten_step(&mut self) {
+    pub(in crate::engine::simulation) fn shorten_step(&mut self) {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
         // A bound of 0 is that of numbers beyond what is finite; no time step mends them.
         if step < self.state.clock.step && step > 0.0 {
@@ -114,7 +114,7 @@ impl Simulation {
 
     /// Shortens an automatic time step within a communication step: at once or, so that inputs which differ a little make no difference,
     /// where it is a good deal too long. It shrinks by whole hundredths for the same reason. Returns whether it has.
-    pub(super) fn shorten_on_the_way(&mut self, at_once: bool) -> bool {
+    pub(in crate::engine::simulation) fn shorten_on_the_way(&mut self, at_once: bool) -> bool {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return self.divide_given() };
         let slack = if at_once { 1.0 } else { SLACK };
         let shorter = slack * step < self.state.clock.step && step > 0.0;
@@ -125,7 +125,7 @@ impl Simulation {
     }
 
     /// Lengthens an automatic time step within a communication step, where a good deal more is allowed. Returns whether it has.
-    pub(super) fn lengthen_on_the_way(&mut self) -> bool {
+    pub(in crate::engine::simulation) fn lengthen_on_the_way(&mut self) -> bool {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return false };
         let longer = step.is_finite() && step > LENGTHENING * self.state.clock.step;
         while longer && step >= RUNG * self.state.clock.step {
@@ -135,7 +135,7 @@ impl Simulation {
     }
 
     /// Lengthens an automatic time step for a communication step of this length \[s\], where a good deal more is allowed.
-    pub(super) fn lengthen_step(&mut self, length: f64) {
+    pub(in crate::engine::simulation) fn lengthen_step(&mut self, length: f64) {
         let Some(step) = self.automatic_step(self.state.clock.stable) else { return };
         let clock = &mut self.state.clock;
         if step.is_infinite() {

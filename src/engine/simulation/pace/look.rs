@@ -1,30 +1,19 @@
 //! The stable time step: when it is found again, and what follows from it.
 
 use super::sight::{Horizon, LookAhead};
-use super::{RunError, Simulation};
 use crate::base::threads::Context;
-use crate::engine::boundaries::course;
 use crate::engine::contacts::FASTER;
+use crate::engine::simulation::{RunError, Simulation};
 use crate::engine::stability::{self, Limit, Limiter, System};
-use crate::engine::state::{BoundaryState, State};
+use crate::engine::state::State;
 use crate::engine::transfer;
-use crate::laws::bond::creation::{Creation, CreationTime, Window};
-use crate::scene::{Boundary, Step};
+use crate::scene::Step;
 
 /// Stable time steps over a given one from which more is foreseen, and a quick bound suffices.
 const FAR_BELOW: f64 = 1.5;
 
 /// The most that is foreseen of the growth of speeds then.
 const MOST_FORESEEN: f64 = 10.0;
-
-/// Time steps between looks at what servos press on: fewer than a wave takes through a particle.
-const STEPS_BETWEEN_LOOKS_OF_SERVOS: u64 = 8;
-
-/// Time steps between looks at how stiff a cell is whose strains reach stresses.
-const STEPS_BETWEEN_LOOKS_OF_CELL: u64 = 32;
-
-/// Largest speed over that of the last look at which the stable time step is looked at again.
-const CALMER: f64 = 0.25;
 
 /// How much longer the automatic time step may be than that for which it was foreseen.
 const MUCH_LONGER: f64 = 20.0;
@@ -74,7 +63,7 @@ impl Simulation {
     }
 
     /// What the stable time step is found from.
-    pub(super) fn system(&self) -> System<'_> {
+    pub(in crate::engine::simulation) fn system(&self) -> System<'_> {
         let Self { scene, state, bodies, fields, passes, .. } = self;
         System { scene, state, bodies, strikers: self.strikers(), fields, passes }
     }
@@ -129,7 +118,7 @@ impl Simulation {
     }
 
     /// Finds the stable time step, for time steps of this length \[s\] or shorter. With a given step that is longer, an error.
-    pub(super) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
+    pub(in crate::engine::simulation) fn look(&mut self, step: f64, context: &Context) -> Result<(), RunError> {
         let (mut counter, horizon) = (self.state.foresight.counter, self.horizon(step));
         let enough = if let Step::Given(step) = self.scene.run.step { FAR_BELOW * step } else { f64::INFINITY };
         let from = (self.state.foresight.root, enough);
@@ -170,32 +159,25 @@ impl Simulation {
         self.check_contacts()
     }
 
-    /// Looks at what servos press on, where it has changed, and now and then.
-    pub(super) fn follow_contacts(&mut self) {
-        let has_changed = |(boundary, moved): (&Boundary, &BoundaryState)| {
-            let served = |axis: &usize| boundary.axes[*axis].servo().is_some();
-            (0..3).filter(served).any(|axis| moved.pressed[axis].has_changed(moved.force[axis]))
-        };
-        let is_due =
-            |simulation: &Self| simulation.scene.boundaries.iter().zip(&simulation.state.boundaries).any(has_changed);
-        let looks = self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_CELL);
-        if looks {
+    /// Looks at what servos press on, and at how stiff a cell is whose strains reach stresses, where that is due.
+    pub(in crate::engine::simulation) fn follow_contacts(&mut self) {
+        if self.cell_is_due() {
             self.look_at_cell();
         }
-        if self.serves && (self.state.clock.steps.is_multiple_of(STEPS_BETWEEN_LOOKS_OF_SERVOS) || is_due(self)) {
+        if self.servos_are_due() {
             self.look_at_pressed();
         }
     }
 
     /// Looks at how stiff a cell is whose strains reach stresses.
-    pub(super) fn look_at_cell(&mut self) {
+    pub(in crate::engine::simulation) fn look_at_cell(&mut self) {
         if let Some(cell) = self.cell.as_ref().filter(|cell| cell.serves()) {
             cell.find_stiffness(&mut self.state, &self.passes);
         }
     }
 
     /// Looks at what servos press on.
-    pub(super) fn look_at_pressed(&mut self) {
+    pub(in crate::engine::simulation) fn look_at_pressed(&mut self) {
         if !self.serves {
             return;
         }
@@ -215,57 +197,8 @@ impl Simulation {
         by.words(|index| self.number(index), name)
     }
 
-    /// Whether what was foreseen has been used up: by motion, by speed, by bonds. Boundaries are this fast \[m/s\], the next
-    /// time step has this length \[s\].
-    pub(super) fn is_due(&self, boundaries: f64, step: f64) -> bool {
-        if self.scene.heat.frozen {
-            return false;
-        }
-        let (foresight, clock) = (&self.state.foresight, &self.state.clock);
-        let speed = clock.speed.max(0.5 * (clock.speed + boundaries));
-        let is_strained = foresight.strained > foresight.strain_reach;
-        if step > transfer::longest_step(self.state.heat.as_ref()) {
-            return true;
-        }
-        if foresight.travel > foresight.reach || speed > foresight.speed || is_strained {
-            return true;
-        }
-        if self.scene.bonds.is_empty() {
-            return false;
-        }
-        let [made, broken] = bonds_so_far(&self.state);
-        let next = Window { after: clock.steps, until: clock.steps + 1, from: clock.time, to: clock.time + step };
-        let unforeseen = |creation: &Creation| match creation.due() {
-            CreationTime::Step(number) => number > foresight.until,
-            CreationTime::Time(time) => time > foresight.to,
-            CreationTime::AtStart | CreationTime::Always => false,
-        };
-        let coming =
-            self.scene.bonds.iter().any(|bond| bond.keys.create.comes_within(&next) && unforeseen(&bond.keys.create));
-        let uncovered = broken > foresight.bonds[1] && self.suppression.any();
-        let unexpected = made > foresight.bonds[0] && clock.steps > foresight.until;
-        coming || uncovered || unexpected
-    }
-
-    /// Largest speed of a boundary, as it is about to move \[m/s\].
-    pub(super) fn boundary_speed(&self) -> f64 {
-        let streaming = self.cell.as_ref().map_or(0.0, |cell| cell.speed(&self.state));
-        course::speeds(&self.scene, &self.bodies, &self.state, self.state.clock.step).fold(streaming, f64::max)
-    }
-
-    /// Whether the scene moves a boundary, at a speed that is not that of the communication step's beginning.
-    pub(super) fn boundaries_change_speed(&self) -> bool {
-        let time = self.state.clock.time;
-        self.scene.boundaries.iter().any(|boundary| boundary.axes.iter().any(|axis| axis.at(time).is_some()))
-    }
-
-    /// Whether what moves fastest has become so much slower since the stable time step was found that a longer one may be.
-    pub(super) fn is_calmer(&self) -> bool {
-        self.state.clock.speed < CALMER * self.state.foresight.fastest
-    }
-
     /// The time step of the start, by what was found.
-    pub(super) fn first_step(&mut self, context: &Context) -> Result<(), RunError> {
+    pub(in crate::engine::simulation) fn first_step(&mut self, context: &Context) -> Result<(), RunError> {
         let given = if let Step::Given(step) = self.scene.run.step { step } else { 0.0 };
         self.look(given, context)?;
         let unlimited = self.scene.run.end.unwrap_or(UNLIMITED);
@@ -277,6 +210,6 @@ impl Simulation {
 }
 
 /// Bonds made and bonds broken so far.
-fn bonds_so_far(state: &State) -> [u64; 2] {
+pub(super) fn bonds_so_far(state: &State) -> [u64; 2] {
     state.bonds.iter().fold([0; 2], |[made, broken], list| [made + list.made, broken + list.broken])
 }

@@ -4,16 +4,15 @@
 //! takes up what its neighbours leave it, and a step that is stable is short enough. How long it may be follows from the energy that
 //! both have, and from what the laws' own code makes of an impact ([`ErrorCurve`]).
 
-use super::Simulation;
+use super::due::{BETWEEN_LOOKS, Seen};
+use crate::base::threads::Context;
 use crate::engine::boundaries::course;
-use crate::engine::contacts::{Encounters, FASTER};
+use crate::engine::contacts::Encounters;
+use crate::engine::simulation::Simulation;
 use crate::engine::state::Pace;
 use crate::laws::contact::impact::{ErrorCurve, Impact, LONGEST_PART};
 use crate::scene::Kind;
 use crate::scene::{Scene, Step};
-
-/// Time steps after which all contacts are looked at again. Such a look takes about as long as a time step.
-pub(super) const BETWEEN_LOOKS: u64 = 256;
 
 /// The longest time step over the stable one where a servo follows what it presses on.
 const SERVED_PART: f64 = 0.2;
@@ -24,17 +23,6 @@ const SPRUNG: f64 = 20.0;
 /// (ω Δt)² over the error of the amplitude of a vibration of angular frequency ω that begins with a velocity: velocity Verlet
 /// swings it out by 1/√(1 − (ω Δt)²/4). The frequency is off by a third of that.
 const SWUNG: f64 = 8.0;
-
-/// What was looked at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Seen {
-    /// Nothing: it was not due.
-    Nothing,
-    /// Bodies in no contact and in one.
-    Impacts,
-    /// All contacts.
-    Everything,
-}
 
 impl Simulation {
     /// The fraction of the stable step that the automatic one takes now; none where it is given.
@@ -52,7 +40,7 @@ impl Simulation {
 
     /// The time step in which bodies swing on their springs to the ground as accurately as impacts are; infinite where the scene gives
     /// it otherwise \[s\].
-    pub(super) fn longest_by_springs(&self) -> f64 {
+    pub(in crate::engine::simulation) fn longest_by_springs(&self) -> f64 {
         if self.scene.run.step != Step::Following {
             return f64::INFINITY;
         }
@@ -66,7 +54,7 @@ impl Simulation {
 
     /// The time step in which bonded bodies vibrate as accurately as impacts are; infinite where none vibrates or the scene gives it
     /// otherwise \[s\].
-    pub(super) fn longest_by_vibration(&self) -> f64 {
+    pub(in crate::engine::simulation) fn longest_by_vibration(&self) -> f64 {
         if self.scene.run.step != Step::Following {
             return f64::INFINITY;
         }
@@ -99,32 +87,24 @@ impl Simulation {
     }
 
     /// Finds out what a time step makes of impacts, where it is to follow them.
-    pub(super) fn try_impacts(&mut self) {
+    pub(in crate::engine::simulation) fn try_impacts(&mut self) {
         if self.scene.run.step == Step::Following {
             self.errors = ErrorCurve::of(&self.impacts(), self.scene.run.accuracy.error());
         }
     }
 
-    /// Looks at contacts and at those to come, where that is due: after so many time steps, where what was foreseen is over or the
-    /// neighbour lists were made anew, and where anything has become much faster; boundaries are this fast \[m/s\].
-    pub(super) fn look_at_contacts(&mut self, boundaries: f64) -> Seen {
-        if self.scene.run.step != Step::Following {
-            return Seen::Nothing;
+    /// Looks at contacts and at those to come, where that is due; boundaries are this fast \[m/s\].
+    pub(in crate::engine::simulation) fn look_at_contacts(&mut self, boundaries: f64, context: &Context) -> Seen {
+        let due = self.contacts_due(boundaries);
+        if due != Seen::Nothing {
+            let speed = self.state.clock.speed.max(boundaries);
+            self.find_pace(speed, due == Seen::Everything, context);
         }
-        let Self { state, .. } = self;
-        let (pace, clock) = (state.pace, &state.clock);
-        let speed = clock.speed.max(boundaries);
-        let whole = clock.steps >= pace.whole_at + BETWEEN_LOOKS;
-        let is_over = clock.rebuilds != pace.rebuilds || clock.time >= pace.until || speed > FASTER * pace.speed;
-        if whole || is_over {
-            self.find_pace(speed, whole);
-            return if whole { Seen::Everything } else { Seen::Impacts };
-        }
-        Seen::Nothing
+        due
     }
 
     /// Looks at contacts and at those to come, of all contacts or of bodies in at most one.
-    pub(super) fn find_pace(&mut self, speed: f64, whole: bool) {
+    pub(in crate::engine::simulation) fn find_pace(&mut self, speed: f64, whole: bool, context: &Context) {
         if self.scene.run.step != Step::Following {
             return;
         }
@@ -145,7 +125,7 @@ impl Simulation {
         let time = (2.0 * state.neighbours.skin / speed).min(BETWEEN_LOOKS as f64 * LONGEST_PART * state.clock.stable);
         // At the start no stable step is known.
         let time = if time > 0.0 { time } else { f64::INFINITY };
-        let mut found = Encounters::of(state, (fields, bodies), (speeds, room), clusters, (whole, time));
+        let mut found = Encounters::of(state, (fields, bodies), (speeds, room), clusters, (whole, time), context);
         for pass in &*passes {
             pass.encounters(state, &mut found);
         }

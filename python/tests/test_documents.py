@@ -1,0 +1,41 @@
+"""Scripts that the pages show run as they stand there."""
+
+import re
+
+import numpy as np
+import pytest
+from conftest import DROP, ROOT
+from test_heated_bed import FROZEN
+
+
+@pytest.fixture
+def script(packaged, tmp_path, monkeypatch):
+    """Runs the block of a page that begins with these words, beside a unit of this scene; gives its values."""
+
+    def run(page, begin, text, *changes):
+        blocks = re.findall(r"```python\n(.*?)```", (ROOT / "docs" / page).read_text(encoding="utf-8"), re.DOTALL)
+        (block,) = [each for each in blocks if each.startswith(begin)]
+        for found, instead in changes:
+            assert found in block
+            block = block.replace(found, instead)
+        monkeypatch.chdir(tmp_path)
+        (tmp_path / "bed.fmu").write_bytes(packaged(text).read_bytes())
+        values = {}
+        exec(block, values)
+        return values
+
+    return run
+
+
+def test_a_script_of_fmpy_alone_keeps_heat_to_rounding(script):
+    found = script("coupling.md", "import fmpy\nfrom fmpy", FROZEN, ("50.0", "0.05"))
+    given = 0.05 * (found["start"] - found["wall"])
+    assert found["heat"] > 0.1 and abs(found["heat"] - given) < 1e-12 * given
+
+
+def test_one_line_of_fmpy_lags_by_a_step_unless_its_signals_are_early(script):
+    early = script("fmu.md", "import fmpy\nimport numpy", DROP)
+    wanted = 1e-3 * np.sin(300.0 * early["times"])
+    assert np.abs(early["table"]["floor.displacement.z"][1:-1] - wanted[1:]).max() < 1e-15
+    late = script("fmu.md", "import fmpy\nimport numpy", DROP, ('way["time"] -= H', "pass"))
+    assert np.abs(late["table"]["floor.displacement.z"][1:-1] - wanted[:-1]).max() < 1e-15
