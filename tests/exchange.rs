@@ -215,7 +215,7 @@ fn a_rate_that_is_given_acts_in_the_next_communication_step() {
         before += came;
     }
     let refused = interface.check(rate, -1.0).unwrap_err().to_string();
-    assert!(refused.ends_with("(feed.rate): expected a number of 0.0 or above, found -1.0"), "{refused}");
+    assert_eq!(refused, "feed.rate: expected a number of 0.0 or above, found -1.0");
 }
 
 #[test]
