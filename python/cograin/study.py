@@ -26,6 +26,7 @@ import json
 import logging
 import os
 import re
+import signal
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -455,13 +456,18 @@ def _key(row: Row) -> str:
     return json.dumps(row, sort_keys=True)
 
 
+def _end_when_told() -> None:
+    """Lets SIGTERM end this process, as its pool expects. A notebook or a cluster may have left another handler."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
 def _on_cores(work: Work, rows: list[Row], made: Mapping[str, Identity], workers: int) -> Iterator[Result]:
     """Results of rows, as they come, of processes on this machine. One that dies takes its own run with it alone."""
     tries = dict.fromkeys(map(_key, rows), 0)
     ahead = list(reversed(rows))
     while ahead:
         running: dict[Future[Any], Row] = {}
-        with ProcessPoolExecutor(min(workers, len(ahead))) as pool:
+        with ProcessPoolExecutor(min(workers, len(ahead)), initializer=_end_when_told) as pool:
             try:
                 while ahead or running:
                     # No more than work at once: what dies with a process is what was running.

@@ -176,6 +176,18 @@ def test_fifty_runs_on_two_cores_of_which_a_process_is_killed_and_that_are_broke
     assert whole(interfering(study, 35, kill).run(workers=2, shown=False), tmp_path)
 
 
+def test_a_process_dies_where_the_host_takes_no_notice_of_the_signal_to_end(tmp_path):
+    def kill(result):
+        os.kill(result.values["process"], signal.SIGKILL)
+
+    before = signal.signal(signal.SIGTERM, lambda *_: None)
+    try:
+        results = interfering(Study({"x": list(range(50))}, brief, tmp_path), 10, kill).run(workers=2, shown=False)
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert whole(results, tmp_path)
+
+
 def test_fifty_runs_on_a_cluster_of_which_a_worker_is_killed_in_the_middle(tmp_path):
     distributed, killed = pytest.importorskip("dask.distributed"), []
     with (
