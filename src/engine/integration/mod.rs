@@ -18,8 +18,17 @@ use crate::engine::state::{Particles, Row};
 
 /// Moves free particles by half a kick and a drift of `step` \[s\] and sets all loads to zero. Returns the largest
 /// speed \[m/s\].
-pub(crate) fn kick_and_drift(particles: &mut Particles, step: f64, turning: bool, context: &Context) -> f64 {
-    sweep(First { rows: Rows::of(particles), step, turning }, context)
+pub(crate) fn kick_and_drift(
+    particles: &mut Particles,
+    step: f64,
+    Sweep { turning, in_fluid }: Sweep,
+    context: &Context,
+) -> f64 {
+    let rows = Rows::of(particles);
+    match in_fluid {
+        true => sweep(First::<true> { rows, step, turning }, context),
+        false => sweep(First::<false> { rows, step, turning }, context),
+    }
 }
 
 /// Half a kick of some particles.
@@ -115,9 +124,24 @@ unsafe fn store<N: Lane>(rows: Shared<Row>, slot: usize, vector: Vector<N>, rest
     unsafe { rows.store_block(vector.row_with(rest), slot) }
 }
 
+/// What half a kick gives to a velocity for a unit load. Nobody pays for dashpots to the ground who has none.
+#[inline(always)]
+fn gain<N: Lane, const IN_FLUID: bool>(half: N, inertia: N, drag: N) -> N {
+    if IN_FLUID { half / (inertia + half * drag) } else { half / inertia }
+}
+
+/// What a sweep over the particles has to do beside translation.
+#[derive(Clone, Copy)]
+pub(crate) struct Sweep {
+    /// Whether particles turn.
+    pub turning: bool,
+    /// Whether dashpots to the ground stand behind loads.
+    pub in_fluid: bool,
+}
+
 /// The first half of a kick, and the drift.
 #[derive(Clone, Copy)]
-struct First<'a> {
+struct First<'a, const IN_FLUID: bool> {
     /// The particles.
     rows: Rows<'a>,
     /// The time step \[s\].
@@ -126,7 +150,7 @@ struct First<'a> {
     turning: bool,
 }
 
-impl First<'_> {
+impl<const IN_FLUID: bool> First<'_, IN_FLUID> {
     /// Sets loads to zero.
     ///
     /// # Safety
@@ -143,7 +167,7 @@ impl First<'_> {
     }
 }
 
-impl HalfKick for First<'_> {
+impl<const IN_FLUID: bool> HalfKick for First<'_, IN_FLUID> {
     #[inline(always)]
     fn rows(&self) -> &Rows<'_> {
         &self.rows
@@ -156,13 +180,13 @@ impl HalfKick for First<'_> {
         // SAFETY: the caller's promise.
         unsafe {
             let ((v, mass), (f, drag)) = (load::<N>(velocity, slot), load(force, slot));
-            let v = v + f * (half / (mass + half * drag));
+            let v = v + f * (gain::<N, IN_FLUID>(half, mass, drag));
             store(velocity, slot, v, mass);
             let (place, radius) = load(position, slot);
             store(position, slot, place + v * step, radius);
             if self.turning {
                 let ((w, inertia), (t, drag)) = (load::<N>(spin, slot), load(torque, slot));
-                store(spin, slot, w + t * (half / (inertia + half * drag)), inertia);
+                store(spin, slot, w + t * (gain::<N, IN_FLUID>(half, inertia, drag)), inertia);
             }
             self.clear(slot, N::WIDTH);
             let square = v.dot(v);
@@ -197,15 +221,19 @@ pub(crate) fn kick_again(
     particles: &mut Particles,
     gravity: Option<[f64; 3]>,
     step: f64,
-    turning: bool,
+    Sweep { turning, in_fluid }: Sweep,
     context: &Context,
 ) -> f64 {
-    sweep(Second { rows: Rows::of(particles), gravity, step, turning }, context)
+    let rows = Rows::of(particles);
+    match in_fluid {
+        true => sweep(Second::<true> { rows, gravity, step, turning }, context),
+        false => sweep(Second::<false> { rows, gravity, step, turning }, context),
+    }
 }
 
 /// The second half of a kick.
 #[derive(Clone, Copy)]
-struct Second<'a> {
+struct Second<'a, const IN_FLUID: bool> {
     /// The particles.
     rows: Rows<'a>,
     /// Gravity that is not yet among the forces \[m/s²\].
@@ -216,7 +244,7 @@ struct Second<'a> {
     turning: bool,
 }
 
-impl Second<'_> {
+impl<const IN_FLUID: bool> Second<'_, IN_FLUID> {
     /// Loads the forces, with the weight, and their dashpots to the ground.
     ///
     /// # Safety
@@ -235,7 +263,7 @@ impl Second<'_> {
     }
 }
 
-impl HalfKick for Second<'_> {
+impl<const IN_FLUID: bool> HalfKick for Second<'_, IN_FLUID> {
     #[inline(always)]
     fn rows(&self) -> &Rows<'_> {
         &self.rows
@@ -249,7 +277,7 @@ impl HalfKick for Second<'_> {
         unsafe {
             let (v, mass) = load::<N>(velocity, slot);
             let (force, drag) = self.weigh(slot, mass);
-            let change = force * (half / (mass + half * drag));
+            let change = force * (gain::<N, IN_FLUID>(half, mass, drag));
             let v = v + change;
             store(velocity, slot, v, mass);
             let next = v + change;
@@ -259,7 +287,7 @@ impl HalfKick for Second<'_> {
             *check = *check + square * N::zero();
             if self.turning {
                 let ((w, inertia), (t, drag)) = (load::<N>(spin, slot), load(torque, slot));
-                let w = w + t * (half / (inertia + half * drag));
+                let w = w + t * (gain::<N, IN_FLUID>(half, inertia, drag));
                 store(spin, slot, w, inertia);
                 *check = *check + (w.x + w.y + w.z) * N::zero();
             }

@@ -68,8 +68,9 @@ impl Simulation {
     pub(super) fn kick_particles(&mut self, step: &mut TimeStep) {
         // Where gravity alone acts beside contacts and bonds, the kick adds it.
         let gravity = self.fields.weight_alone();
+        let sweep = integration::Sweep { turning: self.turning, in_fluid: self.scene.fluid.is_some() };
         let particles = &mut self.state.particles;
-        let speed = integration::kick_again(particles, gravity, step.length(), self.turning, step.context);
+        let speed = integration::kick_again(particles, gravity, step.length(), sweep, step.context);
         self.state.clock.speed = speed;
     }
 

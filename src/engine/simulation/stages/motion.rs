@@ -46,8 +46,9 @@ impl Simulation {
 
     /// Makes the first half of the kick and the drift of the particles that forces move. Their loads are zero then.
     pub(super) fn kick_and_drift(&mut self, step: &mut TimeStep) {
+        let sweep = integration::Sweep { turning: self.turning, in_fluid: self.scene.fluid.is_some() };
         let particles = &mut self.state.particles;
-        let speed = integration::kick_and_drift(particles, step.length(), self.turning, step.context);
+        let speed = integration::kick_and_drift(particles, step.length(), sweep, step.context);
         step.way = speed * step.length();
     }
 
