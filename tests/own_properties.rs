@@ -140,7 +140,7 @@ fn they_are_parameters_of_the_unit() {
     assert_eq!((cover.value, cover.unit, cover.tunable), (0.5, Some("1"), false));
 }
 
-/// The relative velocity of the two along y after a hundred default steps, over that at the start.
+/// The relative velocity of the two along y after 2 ms, over that at the start.
 fn kept(damping: f64) -> f64 {
     let text = SCENE.replace("film_damping = 2.0", &format!("film_damping = {damping:?}"));
     let mut simulation = Simulation::new(Arc::new(scene(&text).unwrap())).unwrap();
