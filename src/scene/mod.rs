@@ -49,7 +49,7 @@ pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use fluid::{Fluid, FluidVelocity};
 pub use governing::GoverningLaws;
 pub use grid::{Grid, GridOutput};
-pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
+pub use heat::{BondWarming, BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
 pub use output::{EnergyBins, Impacts, Output};

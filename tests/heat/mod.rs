@@ -3,6 +3,7 @@
 mod balance;
 mod bodies;
 mod boundaries;
+mod held;
 mod inputs;
 mod losses;
 mod network;

@@ -68,6 +68,16 @@ impl Simulation {
                 return Err(RunError::Frozen { boundary, value, time: self.time() });
             }
         }
+        for nodes in &self.state.nodes {
+            let stand = nodes.target.iter().zip(&nodes.displacement).zip(&nodes.target_rate);
+            let mut moved = stand.flat_map(|((target, now), rate)| {
+                (0..3).filter(|&axis| target[axis] != now[axis] || rate[axis] != 0.0).map(|axis| target[axis])
+            });
+            if let Some(value) = moved.next() {
+                let boundary = self.scene.boundaries[nodes.boundary as usize].name.clone();
+                return Err(RunError::Frozen { boundary, value, time: self.time() });
+            }
+        }
         Ok(())
     }
 
