@@ -1,6 +1,6 @@
 //! Grids: boxes divided into cells, each of which is looked at.
 
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::quantity::{Corners, Counts};
 use crate::laws::region;
 use crate::scene::{Cell, SceneDraft};
@@ -42,23 +42,23 @@ pub enum GridOutput {
     CountBySet,
 }
 
-/// `[grid.<name>]` as a scene writes it.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct GridKeys {
-    /// Corners of the box \[m\].
-    #[serde(rename = "box")]
-    corners: Corners,
-    /// Cells along each axis.
-    counts: Counts,
-    /// What is told of each cell; the porosity where nothing is said.
-    outputs: Option<Vec<GridOutput>>,
+keys! {
+    /// `[grid.<name>]` as a scene writes it.
+    #[derive(Clone, Debug)]
+    pub(crate) struct GridKeys {
+        /// Lower and upper corner \[m\].
+        r#box: Corners = "required",
+        /// `[nx, ny, nz]`: cells along each axis, each ≥ 1.
+        counts: Counts = "required",
+        /// Any of the words below; `[]`: none.
+        outputs: Option<Vec<GridOutput>> = "`[\"porosity\"]`",
+    }
 }
 
 impl Grid {
     /// The grid that is written so.
     pub(crate) fn of(name: &str, keys: &GridKeys) -> Self {
-        let (Corners(corners), Counts(counts)) = (keys.corners, keys.counts);
+        let (Corners(corners), Counts(counts)) = (keys.r#box, keys.counts);
         let shape = region::Grid { corners, counts, repeats: [false; 3] };
         let outputs = keys.outputs.clone().unwrap_or_else(|| vec![GridOutput::Porosity]);
         Self { name: name.to_owned(), shape, outputs }
