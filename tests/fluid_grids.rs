@@ -231,15 +231,16 @@ fn nothing_jumps_where_a_grain_crosses_faces() {
         let force = |x: f64| {
             let fluid = "velocity = \"driven\"\npressure = \"total\"";
             let mut simulation = led([x, y, z], SIX, fluid);
-            give(&mut simulation, "velocity", |cell| swirl(cell));
+            give(&mut simulation, "velocity", swirl);
             give(&mut simulation, "pressure_gradient", |cell| swirl(cell).map(|part| 1e5 * part));
             simulation.place(None).unwrap();
             simulation.state().boundaries[0].force
         };
         let (before, after) = (force(face - 1e-9), force(face + 1e-9));
+        let largest = before.into_iter().map(f64::abs).fold(0.0, f64::max);
         for (before, after) in before.into_iter().zip(after) {
-            // A gradient of 100 over a cell is a change of 2e-5 over this way.
-            assert!((before - after).abs() < 2e-5 * before.abs(), "{before:e} N before, {after:e} N after");
+            // A change as large as the force from one cell to the next is one of 2e-7 on this way.
+            assert!((before - after).abs() < 2e-6 * largest, "{before:e} N before, {after:e} N after");
         }
     }
 }
@@ -263,15 +264,15 @@ fn a_given_gradient_pushes_on_each_volume_and_contains_what_the_scene_says() {
     for (pressure, beside) in [("total", 0.0), ("dynamic", buoyancy)] {
         let mut simulation = led([0.0123, 0.0171, 0.0088], SIX, &format!("pressure = {pressure:?}"));
         // Where nothing is given the fluid is at rest.
-        assert_near(simulation.state().boundaries[0].force[2], -buoyancy, 1e-13);
+        assert_near(simulation.state().boundaries[0].force[2], buoyancy, 1e-13);
         let grid = simulation.scene().grids[0].shape;
         give(&mut simulation, "pressure_gradient", |cell| field(grid.centre(cell)));
         simulation.advance(1e-3).unwrap();
-        let expected = field([0.0123, 0.0171, 0.0088]).map(|part| volume * part);
+        let expected = field([0.0123, 0.0171, 0.0088]).map(|part| -volume * part);
         let force = simulation.state().boundaries[0].force;
         assert_near(force[0], expected[0], 1e-12);
         assert_near(force[1], expected[1], 1e-12);
-        assert_near(force[2], expected[2] - beside, 1e-12);
+        assert_near(force[2], expected[2] + beside, 1e-12);
         // The gradient is no drag.
         assert_eq!(sum(&simulation, "mean_drag.x"), 0.0);
     }
@@ -344,7 +345,7 @@ fn no_fluid_acts_outside_of_the_box() {
     let simulation = led([0.0123, 0.0171, 0.0201], SIX, "velocity = [1.0, 0.0, 0.0]");
     assert_eq!(simulation.state().boundaries[0].force, [0.0; 3]);
     let simulation = led([0.0123, 0.0171, 0.0199], SIX, "velocity = [1.0, 0.0, 0.0]");
-    assert!(simulation.state().boundaries[0].force[0] < 0.0);
+    assert!(simulation.state().boundaries[0].force[0] > 0.0);
 }
 
 #[test]
@@ -423,9 +424,9 @@ fn a_fixed_bed_has_erguns_pressure_drop() {
     let solid = 1.0 - porosity;
     let viscous = 150.0 * 1e-3 * superficial * solid * solid / (d * d);
     let inertial = 1.75 * 1000.0 * superficial * superficial * solid / d;
-    assert_near(-found, (viscous + inertial) / porosity.powi(3), 1e-12);
+    assert_near(found, (viscous + inertial) / porosity.powi(3), 1e-12);
     let coefficient = value(&simulation, "water.cell[1].drag_coefficient");
-    assert_near(coefficient * superficial / porosity, -found * 1e-6 * porosity, 1e-13);
+    assert_near(coefficient * superficial / porosity, found * 1e-6 * porosity, 1e-13);
 }
 
 #[test]
@@ -532,7 +533,7 @@ fn derivatives_of_drag_by_velocities_are_the_weights_and_the_coefficient() {
     let mut simulation = led([0.0123, 0.0171, 0.0088], SIX, "velocity = \"driven\"");
     give(&mut simulation, "velocity", |_| [1e-6, 0.0, 0.0]);
     simulation.place(None).unwrap();
-    simulation.advance(1e-3).unwrap();
+    simulation.advance_or_roll_back(1e-3).unwrap();
     let interface = Interface::of(simulation.scene());
     let input = interface.find("water.cell[2].velocity.x").unwrap();
     let output = interface.find("water.cell[2].mean_drag.x").unwrap();
