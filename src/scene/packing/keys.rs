@@ -1,6 +1,7 @@
 //! Lattices and random packings as a scene writes them.
 
 use crate::base::quantity::{Corners, Counts, Fraction, Numbers, Positive, Triple};
+use crate::scene::sizes::SizesKeys;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
@@ -39,7 +40,7 @@ pub(crate) enum LatticeKind {
     HexagonalClosePacked,
 }
 
-/// `packing = { box or cylinder, count or solid_fraction, radius }`
+/// `packing = { box or cylinder, count or solid_fraction, radius or sizes }`
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PackingTable {
@@ -53,7 +54,9 @@ pub(crate) struct PackingTable {
     /// Volume of the spheres over that of the region; they are pushed apart until they fit.
     pub(crate) solid_fraction: Option<Fraction>,
     /// Radius, or least and largest \[m\].
-    pub(crate) radius: Radii,
+    pub(crate) radius: Option<Radii>,
+    /// How radii are distributed, instead of `radius`.
+    pub(crate) sizes: Option<SizesKeys>,
 }
 
 /// `cylinder = { from, to, radius }`
