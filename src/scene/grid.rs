@@ -40,6 +40,8 @@ pub enum GridOutput {
     Count,
     /// Those of each set.
     CountBySet,
+    /// How far each set is mixed with the others, a number of the whole grid.
+    MixingIndex,
 }
 
 keys! {
@@ -93,6 +95,10 @@ impl Grid {
             let found_twice = format!("{:?} twice", self.outputs[place].name());
             found.push(refused("outputs", found_twice, "each output once".to_owned()));
         }
+        if self.tells(GridOutput::MixingIndex) && sets < 2 {
+            let expected = "two sets of particles or more, between which it is a measure".to_owned();
+            found.push(refused("outputs", format!("\"mixing_index\" in a scene of {sets} set"), expected));
+        }
         if self.tells(GridOutput::Temperature) && !has_heat {
             let expected = "a contact law with [contact.<law>.heat] beside it".to_owned();
             found.push(refused("outputs", "\"temperature\" in a scene where no heat flows".to_owned(), expected));
@@ -113,6 +119,7 @@ impl GridOutput {
             Self::Temperature => "temperature",
             Self::Count => "count",
             Self::CountBySet => "count_by_set",
+            Self::MixingIndex => "mixing_index",
         }
     }
 
@@ -122,6 +129,7 @@ impl GridOutput {
             Self::Velocity => 3,
             Self::Stress => 6,
             Self::CountBySet => sets as u64,
+            Self::MixingIndex => 0,
             Self::Porosity | Self::Density | Self::GranularTemperature | Self::Temperature | Self::Count => 1,
         }
     }
