@@ -2,6 +2,7 @@
 
 use crate::base::quantity::{Porosity, Positive, Triple};
 use crate::laws::motion::{Axis, PrescribedMotion};
+use crate::scene::Pressure;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -23,8 +24,10 @@ pub(in crate::scene::file) struct FluidTable {
     /// Whether it brakes the rotation of the particles.
     #[serde(default)]
     pub(in crate::scene::file) torque: bool,
-    /// Answered: no pressure gradient is given.
-    pub(in crate::scene::file) pressure: Option<IgnoredAny>,
+    /// Grid in whose box it is.
+    pub(in crate::scene::file) grid: Option<String>,
+    /// What the gradient of the pressure that the outside gives contains.
+    pub(in crate::scene::file) pressure: Option<Pressure>,
     /// Answered: not modelled.
     pub(in crate::scene::file) lift: Option<IgnoredAny>,
     /// Answered: not modelled.
