@@ -2,7 +2,7 @@
 
 use super::porosity::LEAST;
 use crate::engine::state::FluidState;
-use crate::engine::state::fluid::Course;
+use crate::engine::state::fluid::{Course, EXCHANGED};
 use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::{Fluid, Scene};
 
@@ -19,8 +19,8 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
             .gradient_at_start(scene.gravity)
             .map_or_else(Course::default, |gradient| Course::at_rest(cells, gradient)),
         porosity: vec![1.0; if fluid.grid.is_some() { cells } else { 0 }],
-        impulse: vec![[0.0; 4]; cells],
-        mean_drag: vec![[0.0; 4]; cells],
+        exchanged: vec![[0.0; 4]; EXCHANGED * cells],
+        mean: vec![[0.0; 4]; EXCHANGED * cells],
         ..FluidState::default()
     })
 }
@@ -30,19 +30,20 @@ pub(crate) fn begin(fluid: Option<&mut FluidState>, interval: f64) {
     let Some(fluid) = fluid else { return };
     fluid.velocity.begin(interval);
     fluid.pressure_gradient.begin(interval);
-    fluid.impulse.fill([0.0; 4]);
+    fluid.exchanged.fill([0.0; 4]);
 }
 
 /// Ends a communication step after this time \[s\].
 pub(crate) fn end(fluid: Option<&mut FluidState>, elapsed: f64) {
     if let Some(fluid) = fluid.filter(|_| elapsed > 0.0) {
-        for (mean, impulse) in fluid.mean_drag.iter_mut().zip(&fluid.impulse) {
-            *mean = impulse.map(|part| part / elapsed);
+        for (mean, sum) in fluid.mean.iter_mut().zip(&fluid.exchanged) {
+            *mean = sum.map(|part| part / elapsed);
         }
     }
 }
 
-/// Brings velocity and gradient to the end of a time step.
+/// Brings velocity and gradient to the end of a time step. The velocity goes on a ramp; the gradient is that of its input throughout a
+/// communication step, as its mean is what continuity demands of that step.
 pub(crate) fn advance(fluid: &Fluid, state: &mut FluidState, progress: &Progress) {
     let left = || if progress.is_last() { 0.0 } else { 1.0 - progress.share(InputCourse::Ramp) };
     if fluid.velocity.is_driven() {
@@ -51,7 +52,7 @@ pub(crate) fn advance(fluid: &Fluid, state: &mut FluidState, progress: &Progress
         state.velocity.fill(fluid.velocity.at(progress.time).unwrap_or_default());
     }
     if fluid.pressure.is_some() {
-        state.pressure_gradient.advance(left());
+        state.pressure_gradient.advance(0.0);
     }
 }
 

@@ -20,13 +20,14 @@ pub(super) struct CellSums {
 pub(super) struct Given<'a>(&'a mut [Row]);
 
 impl Given<'_> {
-    /// Shares a row out by weights.
+    /// Shares rows out by weights among cells that have so many.
     #[inline(always)]
-    pub(super) fn share(&mut self, weights: &Weights, row: Row) {
+    pub(super) fn share<const ROWS: usize>(&mut self, weights: &Weights, rows: [Row; ROWS]) {
         for &(cell, weight) in weights {
-            let sum = &mut self.0[cell];
-            for (sum, part) in sum.iter_mut().zip(row) {
-                *sum += weight * part;
+            for (sum, row) in self.0[ROWS * cell..].iter_mut().zip(rows) {
+                for (sum, part) in sum.iter_mut().zip(row) {
+                    *sum += weight * part;
+                }
             }
         }
     }

@@ -41,18 +41,22 @@ pub struct FluidState {
     pub porosity: Vec<f64>,
     /// Length of the time step at whose end the present loads were found; 0 before the first \[s\].
     pub step: f64,
-    /// Impulse of the drag of the particles on it in the present communication step \[N s\], and behind it the sum over its time of drag
-    /// over the velocity \[kg\].
+    /// What it exchanged in the present communication step, [`EXCHANGED`] rows for each cell: impulse of the drag of the particles on it
+    /// \[N s\], and behind it the sum over its time of drag over the velocity \[kg\]; that of the force of its pressure \[N s\]; and
+    /// superficial way of the particles \[m\].
     #[serde(with = "super::plain")]
-    pub impulse: Vec<Row>,
-    /// The same over time: drag of the particles on it, mean over the last communication step \[N\], and drag over the velocity \[N s/m\].
+    pub exchanged: Vec<Row>,
+    /// The same over time, of the last communication step \[N\], \[N s/m\], \[N\], \[m/s\].
     #[serde(with = "super::plain")]
-    pub mean_drag: Vec<Row>,
+    pub mean: Vec<Row>,
     /// Work of the fluid since counting began: drag along its own velocity, and buoyancy along those of the particles \[J\].
     pub work: f64,
 }
 
-clone_in_place!(FluidState { velocity, pressure_gradient, porosity, step, impulse, mean_drag, work });
+clone_in_place!(FluidState { velocity, pressure_gradient, porosity, step, exchanged, mean, work });
+
+/// How many rows a cell has of what it exchanges.
+pub const EXCHANGED: usize = 3;
 
 impl Course {
     /// So many vectors, at rest.
@@ -153,14 +157,14 @@ impl FluidState {
 
     /// Whether it can be one.
     pub(super) fn check(&self) -> Result<(), StateFault> {
-        let Self { velocity, pressure_gradient, porosity, step, impulse, mean_drag, work } = self;
+        let Self { velocity, pressure_gradient, porosity, step, exchanged, mean, work } = self;
         let count = velocity.now.len();
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
-        let there = [impulse.len(), mean_drag.len()] == [count; 2];
-        demand(there, "fluid", impulse.len(), "a row for each cell of its grid")?;
-        all_finite(impulse.as_flattened(), "fluid")?;
-        all_finite(mean_drag.as_flattened(), "fluid")?;
+        let there = [exchanged.len(), mean.len()] == [EXCHANGED * count; 2];
+        demand(there, "fluid", exchanged.len(), "rows for each cell of its grid")?;
+        all_finite(exchanged.as_flattened(), "fluid")?;
+        all_finite(mean.as_flattened(), "fluid")?;
         all_finite(porosity, "fluid")?;
         all_finite(&[*step, *work], "fluid")?;
         let fills = velocity.now.iter().all(|row| row[3] > 0.0 && row[3] <= 1.0);
