@@ -214,8 +214,8 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
 fn attraction(scene: &SceneDraft) -> Option<Objection> {
     let law = scene.contacts.iter().find(|law| {
         let pulls = |entry: usize| scene.pairs[entry].get(&PULL_OFF_FORCE).is_some_and(|force| force > 0.0);
-        let governed = (0..scene.pairs.len()).filter(|&entry| law.between[entry]);
-        Law::of(&law.choice).is_plastic() && (law.choice.cohesion.row().is_active() || governed.map(pulls).any(|it| it))
+        let mut governed = (0..scene.pairs.len()).filter(|&entry| law.between[entry]);
+        Law::of(&law.choice).is_plastic() && (law.choice.cohesion.row().is_active() || governed.any(pulls))
     });
     let law = law.filter(|_| scene.heat.from_losses[LossKind::Other as usize])?;
     let message = format!(

@@ -1,15 +1,14 @@
-//! Heat of what plastic contacts, rolling springs and bonds lose: what they hold is not lost yet.
+//! Heat of what plastic contacts and rolling springs lose: what they hold is not lost yet.
 
 use super::losses::{heat, lost};
 use super::{GRAINS, assert_close};
-use crate::bonded_exchange::{DAMPED, torn};
-use crate::support::{Files, read, start, start_with};
+use crate::support::{Files, read, start_with};
 use cograin::lanes::Width;
 use cograin::simulation::Simulation;
 use cograin::state::Loss;
 
 /// All that may warm.
-const ALL: &str = "[heat]\nfrom_losses = [\"normal_damping\", \"tangential_damping\", \"sliding\", \"rolling\", \"plastic\", \
+pub(super) const ALL: &str = "[heat]\nfrom_losses = [\"normal_damping\", \"tangential_damping\", \"sliding\", \"rolling\", \"plastic\", \
                    \"bond_damping\", \"bond_release\"]\n";
 
 /// The causes of that.
@@ -52,25 +51,26 @@ fn rolling(law: &str) -> String {
 }
 
 /// A scene with a time step of this length \[s\].
-fn with_step(text: &str, step: &str) -> String {
+pub(super) fn with_step(text: &str, step: &str) -> String {
     text.replace("step = 1.0e-4", &format!("step = {step}"))
 }
 
 /// Fails unless heat is what the causes took since the start, to rounding of this energy \[J\].
 #[track_caller]
-fn assert_booked(simulation: &Simulation, scale: f64) {
+pub(super) fn assert_booked(simulation: &Simulation, scale: f64) {
     let (gained, lost) = (heat(simulation), lost(simulation, &CAUSES));
     assert!((gained - lost).abs() <= 1e-11 * scale, "{gained:e} J gained, {lost:e} J lost");
 }
 
 /// What was lost and is no heat: springs whose stiffness changes, that turn and that part \[J\].
-fn unheated(simulation: &Simulation) -> f64 {
+pub(super) fn unheated(simulation: &Simulation) -> f64 {
     simulation.losses().unwrap().iter().sum::<f64>() - lost(simulation, &CAUSES)
 }
 
 /// Files with a mesh of a floor of four triangles that meet in the origin.
 fn floor() -> Files {
-    let mesh = "v 0 0 0\nv -0.05 -0.05 0\nv 0.05 -0.05 0\nv 0.05 0.05 0\nv -0.05 0.05 0\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n";
+    let mesh =
+        "v 0 0 0\nv -0.05 -0.05 0\nv 0.05 -0.05 0\nv 0.05 0.05 0\nv -0.05 0.05 0\nf 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\n";
     Files::from([("floor.obj".to_owned(), mesh.as_bytes().to_vec())])
 }
 
@@ -151,73 +151,6 @@ fn a_sphere_that_rolls_to_rest_warms_by_the_motion_that_it_loses() {
     }
 }
 
-/// Two bonded spheres that fly apart, on a floor that a third one is bonded to.
-fn bonded(contact: &str) -> String {
-    with_step(GRAINS, "5.0e-7")
-        + ALL
-        + &format!(
-            "[particles.all]\nmaterial = \"stone\"\nlist = [\n\
-             {{ position = [0.0, 0.0, 4.0e-3], radius = 1.0e-3, temperature = 300.0, velocity = [-0.2, 0.1, 0.0] }},\n\
-             {{ position = [1.99e-3, 0.0, 4.0e-3], radius = 1.0e-3, temperature = 400.0, velocity = [0.2, 0.0, 0.0] }},\n\
-             {{ position = [8.0e-3, 0.0, 0.999e-3], radius = 1.0e-3, temperature = 350.0, velocity = [0.05, 0.0, 0.2] }},\n]\n\
-             [boundary.floor]\nplane = {{ point = [0, 0, 0], normal = [0, 0, 1] }}\nmaterial = \"stone\"\n\
-             temperature = 300.0\nheat_capacity = 1.0\n\
-             [bond.glue]\nbetween = [\"all\", \"all\"]\ncreate_distance = 2.1e-3\ncontact = \"{contact}\"\n\
-             normal_stiffness = 1.0e10\ntangential_stiffness = 4.0e9\n\
-             [bond.glue.damping.viscous]\nnormal_force = 0.1\ntangential_force = 0.1\n\
-             [bond.foot]\nbetween = [\"all\", \"floor\"]\ncreate_distance = 2.1e-3\ncontact = \"{contact}\"\n\
-             normal_stiffness = 1.0e10\ntangential_stiffness = 4.0e9\n\
-             [bond.foot.damping.viscous]\nnormal_force = 0.1\ntangential_force = 0.1\n"
-        )
-}
-
-#[test]
-fn bonds_warm_their_bodies_by_what_damping_takes() {
-    for contact in ["parallel", "without_normal", "none"] {
-        let mut simulation = start(&bonded(contact));
-        let before = simulation.kinetic_energy();
-        for _ in 0..20 {
-            simulation.advance(2e-5).unwrap();
-            assert_booked(&simulation, before);
-        }
-        let damped = lost(&simulation, &[Loss::BondDamping]);
-        assert!(damped > 0.1 * before, "{contact}: {damped:e} J of {before:e} J");
-        let now = simulation.kinetic_energy() + simulation.elastic_energy();
-        let residual = simulation.physical_residual().unwrap();
-        assert_close(heat(&simulation), before - now + residual - unheated(&simulation), 1e-9);
-        assert!(residual.abs() < 0.02 * before, "{contact}: {residual:e} J of {before:e} J");
-    }
-}
-
-#[test]
-fn a_bond_at_a_boundary_warms_both() {
-    let only = bonded("none").replace(ALL, "[heat]\nfrom_losses = [\"bond_damping\"]\n");
-    let text = only.replace("[contact.touch.heat.constriction]\n", "");
-    let mut simulation = start(&text);
-    simulation.advance(2e-4).unwrap();
-    let heat = simulation.state().heat.as_ref().unwrap();
-    let floor = heat.boundaries[0].heat();
-    assert!(floor > 0.0);
-    assert_close(heat.gained[2], floor, 1e-12);
-    assert_close(heat.gained[0], heat.gained[1], 1e-12);
-}
-
-#[test]
-fn bonds_that_break_warm_their_bodies_by_what_they_held() {
-    let breaking = "[bond.glue.breakage]\nmax_distance = 1.9905e-3\n[bond.foot.breakage]\nmax_distance = 0.99905e-3\n";
-    let text = bonded("none").replace("_force = 0.1", "_force = 0.0") + breaking;
-    let mut simulation = start(&text);
-    let before = simulation.kinetic_energy();
-    for _ in 0..20 {
-        simulation.advance(2e-5).unwrap();
-        assert_booked(&simulation, before);
-    }
-    let released = lost(&simulation, &[Loss::BondRelease]);
-    assert!(released > 0.0);
-    assert_eq!(simulation.state().bonds.iter().map(|list| list.broken).collect::<Vec<_>>(), [1, 1]);
-    assert!(simulation.state().heat.as_ref().unwrap().boundaries[0].heat() > 0.0);
-}
-
 /// A pile whose contacts are plastic or roll on springs, and whose spheres are bonded after a while: they fall on a mesh beside a plane.
 fn pile(law: &str, contact: &str) -> String {
     let laws = if law == "plastic" { plastic(0.2) } else { rolling(law) };
@@ -277,25 +210,6 @@ fn what_contacts_hold_has_the_same_bits_for_any_threads_and_lanes_and_after_a_sa
 }
 
 #[test]
-fn what_remains_of_bonds_is_warmed_where_their_bodies_go() {
-    for contact in ["without_normal", "none"] {
-        let text = torn("finite_rotation", contact, DAMPED, ALL)
-            .replace("poissons_ratio = 0.25", "poissons_ratio = 0.25\nspecific_heat = 500.0")
-            .replace("[particles.block]\n", "[particles.block]\ntemperature = 300.0\n")
-            .replace("[particles.rod]\n", "[particles.rod]\ntemperature = 300.0\n")
-            .replace("[boundary.floor]\n", "[boundary.floor]\ntemperature = 300.0\n")
-            .replace("[boundary.end]\n", "[boundary.end]\ntemperature = 300.0\nheat_capacity = 1.0\n");
-        let mut simulation = start(&text);
-        let before = simulation.kinetic_energy();
-        for _ in 0..15 {
-            simulation.advance(1e-4).unwrap();
-            assert_booked(&simulation, before);
-        }
-        assert!(simulation.state().bonds.iter().any(|list| list.removed > 20));
-    }
-}
-
-#[test]
 fn what_contacts_held_is_no_heat_of_particles_that_go() {
     for law in ["plastic", "epsd"] {
         let text = pile(law, "")
@@ -312,7 +226,8 @@ fn what_contacts_held_is_no_heat_of_particles_that_go() {
 
 #[test]
 fn attraction_that_comes_back_is_no_heat() {
-    let impact = plastic(0.0) + "[particles.all]\nmaterial = \"stone\"\nlist = [{ position = [0.0, 0.0, 1.0], radius = 1.0, temperature = 300.0 }]\n";
+    let impact = plastic(0.0)
+        + "[particles.all]\nmaterial = \"stone\"\nlist = [{ position = [0.0, 0.0, 1.0], radius = 1.0, temperature = 300.0 }]\n";
     read(&impact).unwrap();
     let pulled = read(&impact.replace("pull_off_force = 0.0", "pull_off_force = 1.0e-3")).unwrap_err();
     assert!(pulled.contains("in the book of losses it has the attraction of [contact.touch]"), "{pulled}");

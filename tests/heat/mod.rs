@@ -2,6 +2,7 @@
 
 mod balance;
 mod bodies;
+mod bonds;
 mod boundaries;
 mod held;
 mod inputs;

@@ -18,15 +18,23 @@ pub(super) struct BondHeat {
 }
 
 impl BondHeat {
-    /// That of the bonds of a scene, between particles or at a boundary of this index; none where no loss warms.
-    pub(super) fn of(scene: &Scene, boundary: Option<usize>) -> Option<Self> {
+    /// That of the bonds of a scene, between particles or at a boundary of this index.
+    pub(super) fn of(scene: &Scene, boundary: Option<usize>) -> Self {
         let warms = scene.heat.from_bonds;
         let boundary = boundary.map(|boundary| (boundary, transfer::takes_heat(&scene.boundaries[boundary])));
-        (warms != BondWarming::default()).then(|| Self { warms, boundary, before: Mutex::default() })
+        Self { warms, boundary, before: Mutex::default() }
+    }
+
+    /// Whether any loss warms.
+    fn is_any(&self) -> bool {
+        self.warms != BondWarming::default()
     }
 
     /// Begins an evaluation: from here on each bond counts what it loses in it.
     pub(super) fn begin(&self, list: &mut BondList) {
+        if !self.is_any() {
+            return;
+        }
         let mut before = self.before.lock().unwrap_or_else(PoisonError::into_inner);
         before.clear();
         before.extend_from_slice(&list.lost);
@@ -34,7 +42,15 @@ impl BondHeat {
     }
 
     /// Ends it before bonds that broke leave their list.
-    pub(super) fn end<'a>(&self, list: &mut BondList, heat: Option<&mut Heat>, results: impl Iterator<Item = &'a Done>) {
+    pub(super) fn end<'a>(
+        &self,
+        list: &mut BondList,
+        heat: Option<&mut Heat>,
+        results: impl Iterator<Item = &'a Done>,
+    ) {
+        if !self.is_any() {
+            return;
+        }
         let before = self.before.lock().unwrap_or_else(PoisonError::into_inner);
         let heat = heat.filter(|heat| !heat.of_losses.is_empty());
         let warm = |list: &BondList, bond: usize, energy: f64, heat: &mut Heat| {
@@ -57,13 +73,13 @@ impl BondHeat {
                 broken.for_each(|broken| warm(list, broken.bond as usize, broken.energy, heat));
             }
         }
-        list.lost.iter_mut().zip(&*before).for_each(|(lost, before)| *lost = before + *lost);
+        list.lost.iter_mut().zip(&*before).for_each(|(lost, before)| *lost += before);
     }
 
-    /// Warms what remains of bonds whose bodies go by what damping takes in the half step before: bodies (slots) and energies \[J\].
-    pub(super) fn let_go(&self, state: &mut State, gone: &[(u32, f64)]) {
+    /// Warms what remains (slot) of bonds whose bodies go by what damping takes in this time \[s\], of their [`super::powers`].
+    pub(super) fn let_go(&self, state: &mut State, gone: &[(u32, [f64; 2])], time: f64) {
         if self.warms.damping {
-            gone.iter().for_each(|&(slot, energy)| transfer::warm_at_once(state, slot, energy));
+            gone.iter().for_each(|&(slot, [_, power])| transfer::warm_at_once(state, slot, time * power));
         }
     }
 }

@@ -61,8 +61,8 @@ pub(crate) struct BondPass {
     near: Mutex<PairCache>,
     /// Working space for the results of each slab.
     results: Mutex<Vec<Done>>,
-    /// What of its losses warms the bodies, if anything does.
-    heat: Option<BondHeat>,
+    /// What of its losses warms the bodies.
+    heat: BondHeat,
 }
 
 impl BondPass {
@@ -171,9 +171,7 @@ impl Pass for BondPass {
         let list = &mut state.bonds[self.index];
         let particles = &mut state.particles;
         let slabs = list.slabs.len().saturating_sub(1);
-        if let Some(heat) = &self.heat {
-            heat.begin(list);
-        }
+        self.heat.begin(list);
         let mut columns = list.rows.iter_mut();
         let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
         let work = Work {
@@ -205,9 +203,7 @@ impl Pass for BondPass {
         for done in &mut *results {
             done.release(context.step, |bond| self.carried(state, bond));
         }
-        if let Some(heat) = &self.heat {
-            heat.end(&mut state.bonds[self.index], state.heat.as_mut(), results.iter());
-        }
+        self.heat.end(&mut state.bonds[self.index], state.heat.as_mut(), results.iter());
         book(state, self.index, results.iter())
     }
 
@@ -259,7 +255,7 @@ impl Pass for BondPass {
             (stays, powers(list, bond, &pair, &self.carried(state, bond)))
         });
         let gone: Vec<_> = gone.collect();
-        end_gone(state, (self.index, self.heat.as_ref()), &gone, step)
+        end_gone(state, (self.index, &self.heat), &gone, 0.5 * step)
     }
 }
 
@@ -338,15 +334,12 @@ pub(crate) fn powers(list: &BondList, bond: usize, pair: &Pair, carried: &BondLo
     [carried.power, taken.sum()]
 }
 
-/// Books the half step in which bonds of a law act whose bodies go: what remains of each (slot) and its [`powers`]. Returns the elastic
-/// energy that they give \[J\].
-fn end_gone(state: &mut State, (law, heat): (usize, Option<&BondHeat>), gone: &[(u32, [f64; 2])], step: f64) -> f64 {
-    let [given, damped] = [0, 1].map(|part: usize| 0.5 * step * gone.iter().map(|(_, powers)| powers[part]).sum::<f64>());
+/// Books the time \[s\] in which bonds of a law act whose bodies go: what remains of each (slot) and its [`powers`]. Returns the elastic energy
+/// that they give \[J\].
+fn end_gone(state: &mut State, (law, heat): (usize, &BondHeat), gone: &[(u32, [f64; 2])], time: f64) -> f64 {
+    let [given, damped] = [0, 1].map(|part: usize| time * gone.iter().map(|(_, powers)| powers[part]).sum::<f64>());
     state.bonds[law].damped += damped;
-    if let Some(heat) = heat {
-        let energies: Vec<_> = gone.iter().map(|&(slot, [_, damped])| (slot, 0.5 * step * damped)).collect();
-        heat.let_go(state, &energies);
-    }
+    heat.let_go(state, gone, time);
     given
 }
 

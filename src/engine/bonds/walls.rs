@@ -49,8 +49,8 @@ pub(crate) struct WallBondPass {
     mass: f64,
     /// Working space for the results of each piece of the list.
     pieces: Mutex<Vec<Piece>>,
-    /// What of its losses warms the bodies, if anything does.
-    heat: Option<BondHeat>,
+    /// What of its losses warms the bodies.
+    heat: BondHeat,
 }
 
 /// Results of a piece of a list.
@@ -238,9 +238,7 @@ impl Pass for WallBondPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let list = &mut state.bonds[self.index];
         let count = list.first.len();
-        if let Some(heat) = &self.heat {
-            heat.begin(list);
-        }
+        self.heat.begin(list);
         let mut columns = list.rows.iter_mut();
         let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
         let work = Work {
@@ -274,10 +272,8 @@ impl Pass for WallBondPass {
         for piece in &mut *pieces {
             piece.done.release(context.step, |bond| self.carried(state, bond));
         }
-        if let Some(heat) = &self.heat {
-            let results = pieces.iter().map(|piece| &piece.done);
-            heat.end(&mut state.bonds[self.index], state.heat.as_mut(), results);
-        }
+        let results = pieces.iter().map(|piece| &piece.done);
+        self.heat.end(&mut state.bonds[self.index], state.heat.as_mut(), results);
         book(state, self.index, pieces.iter().map(|piece| &piece.done))
     }
 
@@ -325,7 +321,7 @@ impl Pass for WallBondPass {
         let gone = (0..list.first.len()).filter(any);
         let of = |bond| (list.first[bond], powers(list, bond, &self.pair(state, bond), &self.carried(state, bond)));
         let gone: Vec<_> = gone.map(of).collect();
-        end_gone(state, (self.index, self.heat.as_ref()), &gone, step)
+        end_gone(state, (self.index, &self.heat), &gone, 0.5 * step)
     }
 }
 

@@ -193,8 +193,7 @@ impl Suppression {
         }
         let State { contacts, walls, heat, .. } = state;
         let pairs = contacts.iter_mut().zip(&self.held);
-        let pairs =
-            pairs.map(|(list, held)| (&mut list.flags, &mut list.history, [&list.first, &list.second], held));
+        let pairs = pairs.map(|(list, held)| (&mut list.flags, &mut list.history, [&list.first, &list.second], held));
         let walls = walls.iter_mut().map(|list| {
             let (flags, history, particle) = (&mut list.flags, &mut list.history, &list.particle);
             (flags, history, [particle; 2], &self.held[list.law as usize])

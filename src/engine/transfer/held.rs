@@ -7,6 +7,10 @@ use crate::scene::Scene;
 /// What contacts of particles (slots) that go held in the last evaluation, by the causes of [`crate::engine::energy::losses::StoredEnergy`] and where it is remembered
 /// \[J\]: since then nothing of it became heat.
 pub(crate) fn remembered(scene: &Scene, state: &State, goes: &[bool]) -> [Option<f64>; 3] {
+    let warms = |kind: LossKind| scene.heat.from_losses[kind as usize];
+    if !scene.heat.warms() {
+        return [None; 3];
+    }
     let (mut rolling, mut plastic) = (0.0, 0.0);
     let mut add = |history: &History, entry: usize, row: usize| {
         let [along, about, ..] = history.get(entry)[row];
@@ -24,6 +28,5 @@ pub(crate) fn remembered(scene: &Scene, state: &State, goes: &[bool]) -> [Option
             rows[list.law as usize].iter().for_each(|&row| add(&list.history, entry, row));
         }
     }
-    let warms = |kind: LossKind| scene.heat.from_losses[kind as usize];
     [warms(LossKind::Rolling).then_some(rolling), None, warms(LossKind::Other).then_some(plastic)]
 }

@@ -474,7 +474,7 @@ impl Telling for SurfacePass {
                 Some(list) => listed::touched(&list, (state, flags), &mut |slot, overlap| {
                     tell(SurfaceTouch { slot, boundary, law, overlap, weight: 1.0, nodes: &[] });
                 }),
-                None => surface.touched_at_features((state, flags), &mut |slot, overlap, (weight, nodes)| {
+                None => surface.touched_at_features((state, flags), |slot, overlap, weight, nodes| {
                     tell(SurfaceTouch { slot, boundary, law, overlap, weight, nodes });
                 }),
             }

@@ -209,7 +209,7 @@ impl AtSurface {
     pub(in crate::engine::contacts::surfaces) fn touched_at_features(
         &self,
         (state, flags): (&State, u8),
-        tell: &mut dyn FnMut(u32, f64, (f64, &[NodeWeights])),
+        mut tell: impl FnMut(u32, f64, f64, &[NodeWeights]),
     ) {
         // No bond suppresses a contact with a feature.
         if flags & TOUCHING == 0 {
@@ -228,7 +228,7 @@ impl AtSurface {
                     let centre = at.frame.inside(Vector::from(state.particles.position[slot as usize]));
                     moving.shape.grips(foot.feature, centre - foot.normal * foot.distance, &mut grips);
                 }
-                tell(slot, contact.overlap, (foot.weight, &grips));
+                tell(slot, contact.overlap, foot.weight, &grips);
             });
         });
     }
