@@ -213,7 +213,7 @@ fn what_contacts_hold_has_the_same_bits_for_any_threads_and_lanes_and_after_a_sa
 fn what_contacts_held_is_no_heat_of_particles_that_go() {
     for law in ["plastic", "epsd"] {
         let text = pile(law, "")
-            + "[region.bin]\nbox = [[2.0e-3, -1.0, -1.0], [1.0, 1.0, 2.0e-3]]\n[outlet.side]\nregion = \"bin\"\n";
+            + "[region.bin]\nbox = [[2.0e-3, -1.0, -1.0], [1.0, 1.0, 2.0e-3]]\n[outlet.drain]\nregion = \"bin\"\n";
         let mut simulation = start_with(&text, floor());
         let before = simulation.kinetic_energy();
         for _ in 0..60 {
