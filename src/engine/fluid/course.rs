@@ -19,6 +19,11 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
             .gradient_at_start(scene.gravity)
             .map_or_else(Course::default, |gradient| Course::at_rest(cells, gradient)),
         porosity: vec![1.0; if fluid.grid.is_some() { cells } else { 0 }],
+        temperature: fluid
+            .heat
+            .map_or_else(Course::default, |heat| Course::at_rest(cells, [heat.temperature, 0.0, 0.0])),
+        heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
+        mean_heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
         impulse: vec![[0.0; 4]; cells],
         mean_drag: vec![[0.0; 4]; cells],
         ..FluidState::default()
@@ -30,14 +35,17 @@ pub(crate) fn begin(fluid: Option<&mut FluidState>, interval: f64) {
     let Some(fluid) = fluid else { return };
     fluid.velocity.begin(interval);
     fluid.pressure_gradient.begin(interval);
+    fluid.temperature.begin(interval);
     fluid.impulse.fill([0.0; 4]);
+    fluid.heat.fill([0.0; 4]);
 }
 
 /// Ends a communication step after this time \[s\].
 pub(crate) fn end(fluid: Option<&mut FluidState>, elapsed: f64) {
     if let Some(fluid) = fluid.filter(|_| elapsed > 0.0) {
-        for (mean, impulse) in fluid.mean_drag.iter_mut().zip(&fluid.impulse) {
-            *mean = impulse.map(|part| part / elapsed);
+        let means = fluid.mean_drag.iter_mut().chain(&mut fluid.mean_heat);
+        for (mean, sum) in means.zip(fluid.impulse.iter().chain(&fluid.heat)) {
+            *mean = sum.map(|part| part / elapsed);
         }
     }
 }
@@ -53,6 +61,9 @@ pub(crate) fn advance(fluid: &Fluid, state: &mut FluidState, progress: &Progress
     if fluid.pressure.is_some() {
         state.pressure_gradient.advance(left());
     }
+    if fluid.heat.is_some_and(|heat| heat.is_driven) {
+        state.temperature.advance(left());
+    }
 }
 
 /// Takes the inputs of another state at the start: all is there at once. Returns whether anything changed.
@@ -60,5 +71,6 @@ pub(crate) fn put(scene: &Scene, fluid: Option<&mut FluidState>, given: Option<&
     let driven = scene.fluid.as_ref().is_some_and(|fluid| fluid.velocity.is_driven());
     let (Some(fluid), Some(given)) = (fluid, given) else { return false };
     let pushed = fluid.pressure_gradient.put(&given.pressure_gradient);
-    (driven && fluid.velocity.put(&given.velocity)) || pushed
+    let warmed = fluid.temperature.put(&given.temperature);
+    (driven && fluid.velocity.put(&given.velocity)) || pushed || warmed
 }

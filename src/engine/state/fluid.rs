@@ -36,6 +36,8 @@ pub struct FluidState {
     pub velocity: Course,
     /// Gradient of the pressure \[Pa/m\]; empty where none is given.
     pub pressure_gradient: Course,
+    /// Temperature \[K\], along x; empty where no heat flows into it.
+    pub temperature: Course,
     /// Part of each cell that no particle fills, at the last communication point; empty without a grid.
     #[serde(with = "super::plain")]
     pub porosity: Vec<f64>,
@@ -48,11 +50,29 @@ pub struct FluidState {
     /// The same over time: drag of the particles on it, mean over the last communication step \[N\], and drag over the velocity \[N s/m\].
     #[serde(with = "super::plain")]
     pub mean_drag: Vec<Row>,
+    /// Heat of the particles into it in the present communication step \[J\], and behind it the sum over its time of the conductances
+    /// \[J/K\]; empty where no heat flows into it.
+    #[serde(with = "super::plain")]
+    pub heat: Vec<Row>,
+    /// The same over time: heat flow of the particles into it, mean over the last communication step \[W\], and conductance \[W/K\].
+    #[serde(with = "super::plain")]
+    pub mean_heat: Vec<Row>,
     /// Work of the fluid since counting began: drag along its own velocity, and buoyancy along those of the particles \[J\].
     pub work: f64,
 }
 
-clone_in_place!(FluidState { velocity, pressure_gradient, porosity, step, impulse, mean_drag, work });
+clone_in_place!(FluidState {
+    velocity,
+    pressure_gradient,
+    temperature,
+    porosity,
+    step,
+    impulse,
+    mean_drag,
+    heat,
+    mean_heat,
+    work
+});
 
 impl Course {
     /// So many vectors, at rest.
@@ -127,6 +147,8 @@ pub enum FluidField {
     Velocity,
     /// The gradient of its pressure.
     PressureGradient,
+    /// Its temperature, along x.
+    Temperature,
 }
 
 impl FluidState {
@@ -135,6 +157,7 @@ impl FluidState {
         match field {
             FluidField::Velocity => &self.velocity,
             FluidField::PressureGradient => &self.pressure_gradient,
+            FluidField::Temperature => &self.temperature,
         }
     }
 
@@ -143,6 +166,7 @@ impl FluidState {
         match field {
             FluidField::Velocity => &mut self.velocity,
             FluidField::PressureGradient => &mut self.pressure_gradient,
+            FluidField::Temperature => &mut self.temperature,
         }
     }
 
@@ -153,14 +177,27 @@ impl FluidState {
 
     /// Whether it can be one.
     pub(super) fn check(&self) -> Result<(), StateFault> {
-        let Self { velocity, pressure_gradient, porosity, step, impulse, mean_drag, work } = self;
+        let Self {
+            velocity,
+            pressure_gradient,
+            temperature,
+            porosity,
+            step,
+            impulse,
+            mean_drag,
+            heat,
+            mean_heat,
+            work,
+        } = self;
         let count = velocity.now.len();
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
-        let there = [impulse.len(), mean_drag.len()] == [count; 2];
+        temperature.check(temperature.now.len())?;
+        let there = [impulse.len(), mean_drag.len()] == [count; 2]
+            && [heat.len(), mean_heat.len()] == [temperature.now.len(); 2];
         demand(there, "fluid", impulse.len(), "a row for each cell of its grid")?;
-        all_finite(impulse.as_flattened(), "fluid")?;
-        all_finite(mean_drag.as_flattened(), "fluid")?;
+        let rows = [impulse, mean_drag, heat, mean_heat];
+        rows.into_iter().try_for_each(|rows| all_finite(rows.as_flattened(), "fluid"))?;
         all_finite(porosity, "fluid")?;
         all_finite(&[*step, *work], "fluid")?;
         let fills = velocity.now.iter().all(|row| row[3] > 0.0 && row[3] <= 1.0);
@@ -170,7 +207,10 @@ impl FluidState {
 
     /// Whether it is of the scene that another one is of.
     pub(super) fn check_same(&self, other: &Self) -> Result<(), StateFault> {
-        let lengths = |it: &Self| [it.velocity.now.len(), it.pressure_gradient.now.len(), it.porosity.len()];
+        let lengths = |it: &Self| {
+            let given = [&it.velocity, &it.pressure_gradient, &it.temperature].map(|course| course.now.len());
+            (given, it.porosity.len())
+        };
         demand(lengths(self) == lengths(other), "fluid", self.velocity.now.len(), "as many cells as the scene has")
     }
 }

@@ -1,5 +1,6 @@
 //! A fluid, as the scene writes it.
 
+use super::TemperatureKey;
 use crate::base::quantity::{Porosity, Positive, Triple};
 use crate::laws::motion::{Axis, PrescribedMotion};
 use crate::scene::Pressure;
@@ -9,7 +10,7 @@ use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// `[fluid.<name>]`, without its drag law.
+/// `[fluid.<name>]`, without its laws.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(in crate::scene::file) struct FluidTable {
@@ -28,6 +29,12 @@ pub(in crate::scene::file) struct FluidTable {
     pub(in crate::scene::file) grid: Option<String>,
     /// What the gradient of the pressure that the outside gives contains.
     pub(in crate::scene::file) pressure: Option<Pressure>,
+    /// Its temperature.
+    pub(in crate::scene::file) temperature: Option<TemperatureKey>,
+    /// Conductivity \[W/(m K)\].
+    pub(in crate::scene::file) conductivity: Option<Positive>,
+    /// Specific heat \[J/(kg K)\].
+    pub(in crate::scene::file) specific_heat: Option<Positive>,
     /// Answered: not modelled.
     pub(in crate::scene::file) lift: Option<IgnoredAny>,
     /// Answered: not modelled.
@@ -35,6 +42,9 @@ pub(in crate::scene::file) struct FluidTable {
     /// Read on its own.
     #[serde(rename = "drag")]
     _drag: Option<IgnoredAny>,
+    /// Read on its own.
+    #[serde(rename = "heat")]
+    _heat: Option<IgnoredAny>,
 }
 
 /// `velocity` of a fluid.
