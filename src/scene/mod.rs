@@ -26,6 +26,7 @@ mod parameters;
 mod plane;
 mod probe;
 mod region;
+pub(crate) mod sizes;
 mod source;
 mod statics;
 
@@ -59,6 +60,7 @@ pub use plane::{MotionPlane, ParticleShape};
 pub use probe::{Derived, Probe, Probed};
 pub(crate) use probe::{DerivedKeys, ProbeKeys};
 pub use region::Region;
+pub use sizes::Sizes;
 pub use source::Source;
 
 use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};

@@ -9,11 +9,12 @@
 //! w is the slip of the load: that of the velocity half a step earlier, where the kick begins a step.
 
 use super::sums::Given;
-use super::{Here, Medium, Stream};
+use super::{Here, Medium, Stream, volume};
 use crate::base::number::{Vector, add};
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::bodies::clumps;
 use crate::engine::integration::mobility;
+use crate::engine::state::fluid::EXCHANGED;
 use crate::engine::state::{Loss, Row, State};
 
 /// Which half kick of a time step is about to be made.
@@ -32,6 +33,10 @@ struct Exchanged {
     impulse: Vector,
     /// Drag over the velocity, times the length of the half kick \[kg\].
     resistance: f64,
+    /// Impulse of the force of the pressure gradient on the bodies \[N s\].
+    pushed: Vector,
+    /// Volume of the bodies times their way \[m⁴\].
+    swept: Vector,
     /// Work of the fluid \[J\].
     work: f64,
     /// What drag takes \[J\].
@@ -44,9 +49,11 @@ struct Exchanged {
 }
 
 impl Exchanged {
-    /// What the fluid gets: the impulse, which is not that of the bodies, and the resistance behind it.
-    fn on_fluid(&self) -> Row {
-        (-self.impulse).row_with(self.resistance)
+    /// What the fluid gets in cells of this volume \[m³\]: the impulses, which are not those of the bodies, with the resistance behind the
+    /// first; and the superficial way of the bodies.
+    fn on_fluid(&self, volume: f64) -> [Row; EXCHANGED] {
+        let way = self.swept * (1.0 / volume);
+        [(-self.impulse).row_with(self.resistance), (-self.pushed).row_with(0.0), way.row_with(0.0)]
     }
 
     /// Both together.
@@ -54,6 +61,8 @@ impl Exchanged {
         Self {
             impulse: self.impulse + other.impulse,
             resistance: self.resistance + other.resistance,
+            pushed: self.pushed + other.pushed,
+            swept: self.swept + other.swept,
             work: self.work + other.work,
             taken: self.taken + other.taken,
             on_free: self.on_free + other.on_free,
@@ -102,12 +111,16 @@ impl HalfKick {
         let none = Gained::default();
         let (velocity, Gained { now, before, more }) = (Vector::from(*velocity), gained.unwrap_or(none));
         let (slip, push) = (here.velocity - velocity + before, here.push(diameter));
+        // The drift lies between both half kicks: its velocity is that behind the first and before the second.
+        let drifts = if self.behind.is_some() { velocity + now } else { velocity };
         let resistance = half * force[3];
         let (drag, mean) = ((slip - now) * resistance, velocity + now * 0.5);
         let others = Vector::from(*force) - slip * force[3] - push;
         Exchanged {
             impulse: drag,
             resistance,
+            pushed: push * half,
+            swept: drifts * (half * volume(diameter)),
             work: drag.dot(here.velocity) + half * push.dot(mean),
             taken: drag.dot(here.velocity - mean),
             on_free: if is_free { drag.dot(mean) + half * push.dot(mean) } else { 0.0 },
@@ -139,7 +152,7 @@ pub(crate) fn book(medium: &mut Medium, state: &mut State, kick: Kick, context: 
     let behind = (kick == Kick::First).then_some(0.5 * fluid.step);
     let half_kick = HalfKick { half: 0.5 * context.step, behind };
     // What is written is lent out meanwhile.
-    let (mut sums, mut cells) = (std::mem::take(&mut medium.sums), std::mem::take(&mut fluid.impulse));
+    let (mut sums, mut cells) = (std::mem::take(&mut medium.sums), std::mem::take(&mut fluid.exchanged));
     let stream = Stream::of(medium, &fluid);
     let mut sum = Exchanged::default();
     for bodies in [Bodies::Particles, Bodies::Clumps] {
@@ -150,17 +163,19 @@ pub(crate) fn book(medium: &mut Medium, state: &mut State, kick: Kick, context: 
         let exchanged = |body: usize| bodies.exchanged(&half_kick, &stream, state, body);
         let all = match medium.grid {
             None => over(count, context, exchanged),
-            Some(_) => {
-                let share = |body: usize, given: &mut Given| shared(exchanged(body), given);
+            Some(grid) => {
+                let volume = grid.cell_volume();
+                let share = |body: usize, given: &mut Given| shared(exchanged(body), volume, given);
                 sums.over((count, &mut cells), context, share, (Exchanged::default(), Exchanged::plus))
             }
         };
         sum = sum.plus(all);
     }
     if medium.grid.is_none() {
-        add(&mut cells[0], &sum.on_fluid());
+        let [drag, ..] = sum.on_fluid(1.0);
+        add(&mut cells[0], &drag);
     }
-    (medium.sums, fluid.impulse) = (sums, cells);
+    (medium.sums, fluid.exchanged) = (sums, cells);
     fluid.work += sum.work;
     state.fluid = Some(fluid);
     if let Some(losses) = &mut state.losses {
@@ -184,12 +199,12 @@ fn over<'a>(
     context.fold(count.div_ceil(CHUNK), of_piece, Exchanged::default(), Exchanged::plus)
 }
 
-/// Gives the cells around a body what it does to the fluid there. Returns what is exchanged.
+/// Gives the cells of this volume \[m³\] around a body what it does to the fluid there. Returns what is exchanged.
 #[inline(always)]
-fn shared(one: Option<(Here, Exchanged)>, given: &mut Given) -> Exchanged {
+fn shared(one: Option<(Here, Exchanged)>, volume: f64, given: &mut Given) -> Exchanged {
     let Some((here, exchanged)) = one else { return Exchanged::default() };
     if let Some(weights) = &here.weights {
-        given.share(weights, exchanged.on_fluid());
+        given.share(weights, exchanged.on_fluid(volume));
     }
     exchanged
 }

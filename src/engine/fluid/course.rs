@@ -2,7 +2,7 @@
 
 use super::porosity::LEAST;
 use crate::engine::state::FluidState;
-use crate::engine::state::fluid::Course;
+use crate::engine::state::fluid::{Course, EXCHANGED};
 use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::{Fluid, Scene};
 
@@ -24,8 +24,8 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
             .map_or_else(Course::default, |heat| Course::at_rest(cells, [heat.temperature, 0.0, 0.0])),
         heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
         mean_heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
-        impulse: vec![[0.0; 4]; cells],
-        mean_drag: vec![[0.0; 4]; cells],
+        exchanged: vec![[0.0; 4]; EXCHANGED * cells],
+        mean: vec![[0.0; 4]; EXCHANGED * cells],
         ..FluidState::default()
     })
 }
@@ -36,21 +36,22 @@ pub(crate) fn begin(fluid: Option<&mut FluidState>, interval: f64) {
     fluid.velocity.begin(interval);
     fluid.pressure_gradient.begin(interval);
     fluid.temperature.begin(interval);
-    fluid.impulse.fill([0.0; 4]);
+    fluid.exchanged.fill([0.0; 4]);
     fluid.heat.fill([0.0; 4]);
 }
 
 /// Ends a communication step after this time \[s\].
 pub(crate) fn end(fluid: Option<&mut FluidState>, elapsed: f64) {
     if let Some(fluid) = fluid.filter(|_| elapsed > 0.0) {
-        let means = fluid.mean_drag.iter_mut().chain(&mut fluid.mean_heat);
-        for (mean, sum) in means.zip(fluid.impulse.iter().chain(&fluid.heat)) {
+        let means = fluid.mean.iter_mut().chain(&mut fluid.mean_heat);
+        for (mean, sum) in means.zip(fluid.exchanged.iter().chain(&fluid.heat)) {
             *mean = sum.map(|part| part / elapsed);
         }
     }
 }
 
-/// Brings velocity and gradient to the end of a time step.
+/// Brings velocity and gradient to the end of a time step. The velocity goes on a ramp; the gradient is that of its input throughout a
+/// communication step, as its mean is what continuity demands of that step.
 pub(crate) fn advance(fluid: &Fluid, state: &mut FluidState, progress: &Progress) {
     let left = || if progress.is_last() { 0.0 } else { 1.0 - progress.share(InputCourse::Ramp) };
     if fluid.velocity.is_driven() {
@@ -59,7 +60,7 @@ pub(crate) fn advance(fluid: &Fluid, state: &mut FluidState, progress: &Progress
         state.velocity.fill(fluid.velocity.at(progress.time).unwrap_or_default());
     }
     if fluid.pressure.is_some() {
-        state.pressure_gradient.advance(left());
+        state.pressure_gradient.advance(0.0);
     }
     if fluid.heat.is_some_and(|heat| heat.is_driven) {
         state.temperature.advance(left());

@@ -71,6 +71,11 @@ struct Convects {
     prandtl: f64,
 }
 
+/// Volume of a sphere of this diameter \[m³\].
+fn volume(diameter: f64) -> f64 {
+    (PI / 6.0) * (diameter * diameter * diameter)
+}
+
 /// What a fluid does to a body.
 #[derive(Clone, Copy)]
 pub(crate) struct Flow {

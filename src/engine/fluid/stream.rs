@@ -1,6 +1,6 @@
 //! The fluid as it flows now, and what it does to a sphere at a point.
 
-use super::{Flow, Medium};
+use super::{Flow, Medium, volume};
 use crate::base::number::Vector;
 use crate::engine::state::{Clumps, FluidState, Row, State};
 use crate::laws::region::{Grid, Weights};
@@ -114,7 +114,7 @@ impl Here<'_> {
     /// Force of the pressure gradient on a sphere \[N\].
     #[inline(always)]
     pub(super) fn push(&self, diameter: f64) -> Vector {
-        self.push * ((PI / 6.0) * (diameter * diameter * diameter))
+        self.push * volume(diameter)
     }
 
     /// Conductance between it and a sphere of this diameter \[m\] with this velocity \[m/s\] \[W/K\].

@@ -26,13 +26,14 @@ impl Given<'_> {
         add(&mut self.0[0], &row);
     }
 
-    /// Shares a row out by weights.
+    /// Shares rows out by weights among cells that have so many.
     #[inline(always)]
-    pub(super) fn share(&mut self, weights: &Weights, row: Row) {
+    pub(super) fn share<const ROWS: usize>(&mut self, weights: &Weights, rows: [Row; ROWS]) {
         for &(cell, weight) in weights {
-            let sum = &mut self.0[cell];
-            for (sum, part) in sum.iter_mut().zip(row) {
-                *sum += weight * part;
+            for (sum, row) in self.0[ROWS * cell..].iter_mut().zip(rows) {
+                for (sum, part) in sum.iter_mut().zip(row) {
+                    *sum += weight * part;
+                }
             }
         }
     }

@@ -43,13 +43,14 @@ pub struct FluidState {
     pub porosity: Vec<f64>,
     /// Length of the time step at whose end the present loads were found; 0 before the first \[s\].
     pub step: f64,
-    /// Impulse of the drag of the particles on it in the present communication step \[N s\], and behind it the sum over its time of drag
-    /// over the velocity \[kg\].
+    /// What it exchanged in the present communication step, [`EXCHANGED`] rows for each cell: impulse of the drag of the particles on it
+    /// \[N s\], and behind it the sum over its time of drag over the velocity \[kg\]; that of the force of its pressure \[N s\]; and
+    /// superficial way of the particles \[m\].
     #[serde(with = "super::plain")]
-    pub impulse: Vec<Row>,
-    /// The same over time: drag of the particles on it, mean over the last communication step \[N\], and drag over the velocity \[N s/m\].
+    pub exchanged: Vec<Row>,
+    /// The same over time, of the last communication step \[N\], \[N s/m\], \[N\], \[m/s\].
     #[serde(with = "super::plain")]
-    pub mean_drag: Vec<Row>,
+    pub mean: Vec<Row>,
     /// Heat of the particles into it in the present communication step \[J\], and behind it the sum over its time of the conductances
     /// \[J/K\]; empty where no heat flows into it.
     #[serde(with = "super::plain")]
@@ -67,12 +68,15 @@ clone_in_place!(FluidState {
     temperature,
     porosity,
     step,
-    impulse,
-    mean_drag,
+    exchanged,
+    mean,
     heat,
     mean_heat,
     work
 });
+
+/// How many rows a cell has of what it exchanges.
+pub const EXCHANGED: usize = 3;
 
 impl Course {
     /// So many vectors, at rest.
@@ -183,8 +187,8 @@ impl FluidState {
             temperature,
             porosity,
             step,
-            impulse,
-            mean_drag,
+            exchanged,
+            mean,
             heat,
             mean_heat,
             work,
@@ -193,10 +197,10 @@ impl FluidState {
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
         temperature.check(temperature.now.len())?;
-        let there = [impulse.len(), mean_drag.len()] == [count; 2]
+        let there = [exchanged.len(), mean.len()] == [EXCHANGED * count; 2]
             && [heat.len(), mean_heat.len()] == [temperature.now.len(); 2];
-        demand(there, "fluid", impulse.len(), "a row for each cell of its grid")?;
-        let rows = [impulse, mean_drag, heat, mean_heat];
+        demand(there, "fluid", exchanged.len(), "rows for each cell of its grid")?;
+        let rows = [exchanged, mean, heat, mean_heat];
         rows.into_iter().try_for_each(|rows| all_finite(rows.as_flattened(), "fluid"))?;
         all_finite(porosity, "fluid")?;
         all_finite(&[*step, *work], "fluid")?;

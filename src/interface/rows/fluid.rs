@@ -2,7 +2,7 @@
 
 use super::row::{At, Each, OUTPUT, Present, Row, Write};
 use crate::engine::simulation::Input;
-use crate::engine::state::fluid::{Course, FluidField};
+use crate::engine::state::fluid::{Course, EXCHANGED, FluidField};
 use crate::engine::state::{FluidState, State};
 use crate::interface::{Quantity, Value};
 use crate::scene::{Fluid, Scene};
@@ -81,8 +81,8 @@ const VELOCITY: Row = Row {
 const GRADIENT: Row = Row {
     name: "pressure_gradient",
     each: Each::FluidAxis,
-    description: "gradient of the pressure of {owner} along {axis}, to be reached at the end of the communication step; at \
-                  initialisation taken at once",
+    description: "gradient of the pressure of {owner} along {axis} throughout the next communication step; at initialisation taken at \
+                  once",
     quantity: Quantity::PressureGradient,
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none() && fluid.pressure.is_some()),
     write: GRADIENT_GIVEN,
@@ -99,7 +99,7 @@ const MEAN_DRAG: Row = Row {
     quantity: Quantity::Force,
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none()),
     follows_inputs_at_start: false,
-    read: |now, at: At| of(now, |fluid| fluid.mean_drag[at.element()][at.axis()]),
+    read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element()][at.axis()]),
     ..OUTPUT
 };
 
@@ -112,7 +112,7 @@ const DRAG_COEFFICIENT: Row = Row {
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none()),
     minimum: Some(0.0),
     follows_inputs_at_start: false,
-    read: |now, at: At| of(now, |fluid| fluid.mean_drag[at.element()][3]),
+    read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element()][3]),
     ..OUTPUT
 };
 
@@ -153,6 +153,11 @@ const HEAT_CONDUCTANCE: Row = Row {
     ..OUTPUT
 };
 
+/// Whether somebody solves for its flow: its pressure gradient is given.
+fn is_solved(scene: &Scene) -> bool {
+    is(scene, |fluid| fluid.pressure.is_some())
+}
+
 /// Variables of the fluid, inputs first.
 pub(super) static OF_FLUID: [Row; 9] = [
     VELOCITY,
@@ -183,7 +188,7 @@ pub(super) static OF_FLUID: [Row; 9] = [
 ];
 
 /// Variables of each cell of its grid, inputs first.
-pub(super) static OF_FLUID_CELLS: [Row; 8] = [
+pub(super) static OF_FLUID_CELLS: [Row; 10] = [
     Row {
         each: Each::FluidCellAxis,
         description: "velocity of {owner} between the particles at the centre of cell {element} along {axis}, to be reached at the end of \
@@ -193,8 +198,8 @@ pub(super) static OF_FLUID_CELLS: [Row; 8] = [
     },
     Row {
         each: Each::FluidCellAxis,
-        description: "gradient of the pressure of {owner} at the centre of cell {element} along {axis}, to be reached at the end of the \
-                      communication step; at initialisation taken at once",
+        description: "gradient of the pressure of {owner} at the centre of cell {element} along {axis} throughout the next communication \
+                      step; at initialisation taken at once",
         exists: |scene, _| is(scene, |fluid| fluid.pressure.is_some()),
         ..GRADIENT
     },
@@ -239,5 +244,24 @@ pub(super) static OF_FLUID_CELLS: [Row; 8] = [
                       communication step",
         exists: |scene, _| is(scene, |fluid| fluid.heat.is_some()),
         ..HEAT_CONDUCTANCE
+    },
+    Row {
+        name: "mean_pressure_force",
+        each: Each::FluidCellAxis,
+        description: "force of the particles on {owner} in cell {element} along {axis} that answers that of the whole gradient of its \
+                      pressure on them, by their weights between centres, mean over the last communication step",
+        exists: |scene, _| is_solved(scene),
+        read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element() + 1][at.axis()]),
+        ..MEAN_DRAG
+    },
+    Row {
+        name: "mean_solid_flux",
+        each: Each::FluidCellAxis,
+        description: "superficial velocity of the particles in cell {element} of {owner} along {axis}: their volume flow over the whole \
+                      section, by their weights between centres, mean over the last communication step",
+        quantity: Quantity::Velocity,
+        exists: |scene, _| is_solved(scene),
+        read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element() + 2][at.axis()]),
+        ..MEAN_DRAG
     },
 ];
