@@ -122,9 +122,9 @@ impl Fluid {
 
     /// Numbers of the unit for each cell of its grid.
     pub(in crate::scene) fn numbers(&self) -> u64 {
-        let inputs = u64::from(self.velocity.is_driven()) + u64::from(self.pressure.is_some());
+        let vectors = u64::from(self.velocity.is_driven()) + 3 * u64::from(self.pressure.is_some());
         let of_heat = self.heat.map_or(0, |heat| 2 + u64::from(heat.is_driven));
-        5 + 3 * inputs + of_heat
+        5 + 3 * vectors + of_heat
     }
 }
 

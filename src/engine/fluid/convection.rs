@@ -62,7 +62,7 @@ pub(crate) fn convect(medium: &mut Medium, state: &mut State, context: &Context)
         (row[2], row[3]) = (row[2] + flow, row[3] + conductance);
         let row = [-flow * step, conductance * step, 0.0, 0.0];
         match &weights {
-            Some(weights) => given.share(weights, row),
+            Some(weights) => given.share(weights, [row]),
             None => given.add(row),
         }
         flow

@@ -11,6 +11,7 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
     let fluid = scene.fluid.as_ref()?;
     let cells = fluid.cells(&scene.grids);
     let mut velocity = Course::at_rest(cells, fluid.velocity.at_start());
+    let rows = if fluid.pressure.is_some() { EXCHANGED } else { 1 };
     let porosity = fluid.porosity.unwrap_or(1.0).max(LEAST);
     velocity.now.iter_mut().for_each(|row| row[3] = porosity);
     Some(FluidState {
@@ -24,8 +25,8 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
             .map_or_else(Course::default, |heat| Course::at_rest(cells, [heat.temperature, 0.0, 0.0])),
         heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
         mean_heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
-        exchanged: vec![[0.0; 4]; EXCHANGED * cells],
-        mean: vec![[0.0; 4]; EXCHANGED * cells],
+        exchanged: vec![[0.0; 4]; rows * cells],
+        mean: vec![[0.0; 4]; rows * cells],
         ..FluidState::default()
     })
 }

@@ -43,9 +43,9 @@ pub struct FluidState {
     pub porosity: Vec<f64>,
     /// Length of the time step at whose end the present loads were found; 0 before the first \[s\].
     pub step: f64,
-    /// What it exchanged in the present communication step, [`EXCHANGED`] rows for each cell: impulse of the drag of the particles on it
-    /// \[N s\], and behind it the sum over its time of drag over the velocity \[kg\]; that of the force of its pressure \[N s\]; and
-    /// superficial way of the particles \[m\].
+    /// What it exchanged in the present communication step, rows for each cell: impulse of the drag of the particles on it
+    /// \[N s\], and behind it the sum over its time of drag over the velocity \[kg\]; where a gradient of its pressure is given,
+    /// the impulse of that, too \[N s\], and superficial way of the particles \[m\].
     #[serde(with = "super::plain")]
     pub exchanged: Vec<Row>,
     /// The same over time, of the last communication step \[N\], \[N s/m\], \[N\], \[m/s\].
@@ -75,7 +75,7 @@ clone_in_place!(FluidState {
     work
 });
 
-/// How many rows a cell has of what it exchanges.
+/// How many rows a cell has of what it exchanges where a gradient of its pressure is given. Elsewhere it has one.
 pub const EXCHANGED: usize = 3;
 
 impl Course {
@@ -156,6 +156,16 @@ pub enum FluidField {
 }
 
 impl FluidState {
+    /// How many rows each cell has of what it exchanges.
+    pub fn rows(&self) -> usize {
+        if self.pressure_gradient.now.is_empty() { 1 } else { EXCHANGED }
+    }
+
+    /// A row of what a cell exchanged, mean over the last communication step.
+    pub fn mean_of(&self, cell: usize, row: usize) -> Row {
+        self.mean[self.rows() * cell + row]
+    }
+
     /// What it is given.
     pub fn given(&self, field: FluidField) -> &Course {
         match field {
@@ -181,23 +191,13 @@ impl FluidState {
 
     /// Whether it can be one.
     pub(super) fn check(&self) -> Result<(), StateFault> {
-        let Self {
-            velocity,
-            pressure_gradient,
-            temperature,
-            porosity,
-            step,
-            exchanged,
-            mean,
-            heat,
-            mean_heat,
-            work,
-        } = self;
+        let Self { velocity, pressure_gradient, temperature, porosity, step, exchanged, mean, heat, mean_heat, work } =
+            self;
         let count = velocity.now.len();
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
         temperature.check(temperature.now.len())?;
-        let there = [exchanged.len(), mean.len()] == [EXCHANGED * count; 2]
+        let there = [exchanged.len(), mean.len()] == [self.rows() * count; 2]
             && [heat.len(), mean_heat.len()] == [temperature.now.len(); 2];
         demand(there, "fluid", exchanged.len(), "rows for each cell of its grid")?;
         let rows = [exchanged, mean, heat, mean_heat];

@@ -2,7 +2,7 @@
 
 use super::row::{At, Each, OUTPUT, Present, Row, Write};
 use crate::engine::simulation::Input;
-use crate::engine::state::fluid::{Course, EXCHANGED, FluidField};
+use crate::engine::state::fluid::{Course, FluidField};
 use crate::engine::state::{FluidState, State};
 use crate::interface::{Quantity, Value};
 use crate::scene::{Fluid, Scene};
@@ -99,7 +99,7 @@ const MEAN_DRAG: Row = Row {
     quantity: Quantity::Force,
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none()),
     follows_inputs_at_start: false,
-    read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element()][at.axis()]),
+    read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 0)[at.axis()]),
     ..OUTPUT
 };
 
@@ -112,7 +112,7 @@ const DRAG_COEFFICIENT: Row = Row {
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none()),
     minimum: Some(0.0),
     follows_inputs_at_start: false,
-    read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element()][3]),
+    read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 0)[3]),
     ..OUTPUT
 };
 
@@ -251,7 +251,7 @@ pub(super) static OF_FLUID_CELLS: [Row; 10] = [
         description: "force of the particles on {owner} in cell {element} along {axis} that answers that of the whole gradient of its \
                       pressure on them, by their weights between centres, mean over the last communication step",
         exists: |scene, _| is_solved(scene),
-        read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element() + 1][at.axis()]),
+        read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 1)[at.axis()]),
         ..MEAN_DRAG
     },
     Row {
@@ -261,7 +261,7 @@ pub(super) static OF_FLUID_CELLS: [Row; 10] = [
                       section, by their weights between centres, mean over the last communication step",
         quantity: Quantity::Velocity,
         exists: |scene, _| is_solved(scene),
-        read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element() + 2][at.axis()]),
+        read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 2)[at.axis()]),
         ..MEAN_DRAG
     },
 ];
