@@ -5,33 +5,26 @@ use super::{Medium, Stream};
 use crate::base::lanes::Shared;
 use crate::base::number::{Vector, larger};
 use crate::base::threads::{CHUNK, Context};
+use crate::engine::state::State;
 use crate::engine::state::heat::difference;
-use crate::engine::state::{Heat, State};
+use crate::laws::region::Weights;
 
-/// What convects to a body.
-#[derive(Clone, Copy)]
-struct Convected {
-    /// The slot with its temperature: its own, or that of the first sphere of a clump.
-    slot: usize,
-    /// The row of the fluid: that of a particle or, counted on behind these, of a clump.
-    body: usize,
-}
-
-/// The bodies to which the fluid convects: particles but images and spheres of clumps, then clumps.
-fn convected(state: &State, body: usize) -> Option<Convected> {
+/// The slot with the temperature of a body: its own, or that of the first sphere of a clump. Bodies are the particles but images and spheres
+/// of clumps and, counted on behind these, clumps.
+fn slot_of(state: &State, body: usize) -> Option<usize> {
     let (particles, boundaries) = (&state.particles, state.boundaries.len());
     match body.checked_sub(particles.len()) {
-        None => (particles.owner[body] as usize <= boundaries).then_some(Convected { slot: body, body }),
+        None => (particles.owner[body] as usize <= boundaries).then_some(body),
         Some(clump) => {
             let first = *state.clumps.spheres_of(clump).first()?;
-            Some(Convected { slot: particles.slot[first as usize] as usize, body })
+            Some(particles.slot[first as usize] as usize)
         }
     }
 }
 
 impl Stream<'_> {
     /// Conductance to a body \[W/K\], the temperature of the fluid there \[K\] and the cells that are around it.
-    fn convects(&self, state: &State, body: usize) -> Option<(f64, f64, Option<crate::laws::region::Weights>)> {
+    fn convects(&self, state: &State, body: usize) -> Option<(f64, f64, Option<Weights>)> {
         let particles = &state.particles;
         let (place, velocity, diameter) = match body.checked_sub(particles.len()) {
             None => (particles.position[body], particles.velocity[body], 2.0 * particles.position[body][3]),
@@ -54,7 +47,7 @@ pub(crate) fn convect(medium: &mut Medium, state: &mut State, context: &Context)
     let (stream, rows, step) = (Stream::of(medium, &fluid), Shared::new(&mut slots), context.step);
     let count = state.particles.len() + state.clumps.len();
     let of_body = |body: usize, given: &mut Given| {
-        let Some(Convected { slot, body }) = convected(state, body) else { return 0.0 };
+        let Some(slot) = slot_of(state, body) else { return 0.0 };
         let Some((conductance, temperature, weights)) = stream.convects(state, body) else { return 0.0 };
         // SAFETY: each body has a slot of its own, and is worked on by one thread.
         let row = unsafe { rows.at(slot) };
@@ -79,8 +72,7 @@ pub(crate) fn rate(medium: &Medium, state: &State, context: &Context) -> f64 {
     let stream = Stream::of(medium, fluid);
     let count = state.particles.len() + state.clumps.len();
     let of_body = |body: usize| {
-        let Convected { slot, body } = convected(state, body)?;
-        let capacity = capacity(heat, state, slot);
+        let capacity = heat.capacity[state.particles.id[slot_of(state, body)?] as usize];
         let (conductance, ..) = stream.convects(state, body)?;
         (capacity > 0.0).then_some(conductance / capacity)
     };
@@ -89,9 +81,4 @@ pub(crate) fn rate(medium: &Medium, state: &State, context: &Context) -> f64 {
         bodies.filter_map(of_body).fold(0.0, larger)
     };
     context.fold(count.div_ceil(CHUNK), of_piece, 0.0, larger)
-}
-
-/// Heat capacity of what stands in a slot \[J/K\].
-fn capacity(heat: &Heat, state: &State, slot: usize) -> f64 {
-    heat.capacity[state.particles.id[slot] as usize]
 }
