@@ -261,6 +261,14 @@ const FORCES: &[Stage] = &[
 /// The other half of the kick.
 const KICK: &[Stage] = &[
     Stage {
+        name: "convection",
+        scenes: "fluid into which heat flows",
+        is_needed: |it| it.scene.fluid.as_ref().is_some_and(|fluid| fluid.heat.is_some()),
+        reads: &[Places, Motions, Clumps, Fluid, Heat],
+        writes: &[Fluid, Heat],
+        run: Simulation::convect,
+    },
+    Stage {
         name: "heat",
         scenes: "temperatures",
         is_needed: |it| it.scene.has_heat(),
