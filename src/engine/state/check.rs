@@ -115,6 +115,9 @@ impl State {
             heat.check(other, self.particles.slot.len(), self.exchange.is_none())?;
         }
         demand(self.fluid.is_some() == other.fluid.is_some(), "fluid", 0, "a fluid where the scene has one")?;
+        if let (Some(fluid), Some(other)) = (&self.fluid, &other.fluid) {
+            fluid.check_same(other)?;
+        }
         demand(self.traces.is_some() == other.traces.is_some(), "traces", 0, "traces where the scene asks for them")?;
         if let (Some(traces), Some(other)) = (&self.traces, &other.traces) {
             traces.check(other, self.particles.slot.len())?;

@@ -1,11 +1,11 @@
 //! `[insertion.<name>]`, `[outlet.<name>]`, `[flow_meter.<name>]` as a scene writes them.
 
 use super::Polygon;
-use super::size_keys::SizesKeys;
 use crate::base::document::{Mistake, keys};
 use crate::base::quantity::{NonNegative, Positive, Triple};
 use crate::laws::surface::direction;
 use crate::scene::clump::OrientationKey;
+use crate::scene::sizes::SizesKeys;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};

@@ -2,6 +2,7 @@
 
 use crate::base::document::keys;
 use crate::base::quantity::{Corners, Counts, Fraction, Numbers, Positive, Triple};
+use crate::scene::sizes::SizesKeys;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
@@ -41,7 +42,7 @@ pub(crate) enum LatticeKind {
 }
 
 keys! {
-    /// `packing = { box or cylinder, count or solid_fraction, radius }`
+    /// `packing = { box or cylinder, count or solid_fraction, radius or sizes }`
     #[derive(Clone, Debug)]
     pub(crate) struct PackingTable {
         /// Lower and upper corner of the region \[m\]; it holds every sphere whole.
@@ -53,7 +54,10 @@ keys! {
         /// Volume of the spheres over that of the region: equal spheres end at 0.74.
         pub(crate) solid_fraction: Option<Fraction> = "this or `count`",
         /// One radius, or `[least, largest]` of an even distribution \[m\].
-        pub(crate) radius: Radii = "required",
+        pub(crate) radius: Option<Radii> = "this or `sizes`",
+        /// A distribution of radii, as [insertions](#insertionname) have it: sieve curve, log-normal, classes; even a few hundred spheres
+        /// have its shares.
+        pub(crate) sizes: Option<SizesKeys> = "this or `radius`",
     }
 }
 

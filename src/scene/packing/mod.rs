@@ -6,6 +6,7 @@ mod keys;
 mod lattice;
 pub(crate) mod made;
 pub(crate) mod overlaps;
+mod radii;
 mod random;
 mod region;
 mod relaxation;

@@ -3,6 +3,7 @@
 use crate::base::document::keys;
 use crate::base::quantity::{Porosity, Positive, Triple};
 use crate::laws::motion::{Axis, PrescribedMotion};
+use crate::scene::Pressure;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -20,14 +21,16 @@ keys! {
         /// Velocity between the particles \[m/s\]: `[x, y, z]`; `"driven"` (by inputs, from rest on) or `{ driven = [x, y, z] }`;
         /// `{ prescribed = { x = .. } }`, that of [motions](#boundaryname) of boundaries.
         pub(in crate::scene::file) velocity: Option<VelocityKey> = "rest",
-        /// Part of space that the particles leave to it; required by `di_felice`, `gidaspow`, `koch_hill`, `beetstra`.
+        /// [Grid](#gridname) in whose box it is, with velocity, pressure gradient and porosity in each cell.
+        pub(in crate::scene::file) grid: Option<String> = "everywhere",
+        /// The pressure gradient is an input: `"total"`, or `"dynamic"` without ρ g.
+        pub(in crate::scene::file) pressure: Option<Pressure> = "ρ g, no input",
+        /// Part of space that the particles leave to it; required by `di_felice`, `gidaspow`, `koch_hill`, `beetstra` without a grid.
         pub(in crate::scene::file) porosity: Option<Porosity> = "1",
         /// Whether it brakes rotation.
         #[serde(default)]
         pub(in crate::scene::file) torque: bool = "`false`",
     } beside {
-        /// Answered: no pressure gradient is given.
-        pub(in crate::scene::file) pressure: Option<IgnoredAny>,
         /// Answered: not modelled.
         pub(in crate::scene::file) lift: Option<IgnoredAny>,
         /// Answered: not modelled.
