@@ -35,7 +35,7 @@ pub use crate::base::quantity::Range;
 pub use crate::laws::motion::{AxisMotion, InputCourse, NodeMotion};
 pub use crate::laws::surface::Shape;
 pub use crate::scene::exchange::{InsertedClump, Kind, Outside};
-pub use crate::scene::packing::PackingProgress;
+pub use crate::scene::packing::{PackingProgress, Packings};
 pub use about::About;
 pub use accuracy::Accuracy;
 pub use body::Body;
@@ -159,6 +159,8 @@ pub struct SceneDraft {
     pub fingerprint: u64,
     /// The text and every file that it names, each with a fingerprint of its own; empty for a scene built in code.
     pub parts: Vec<(String, u64)>,
+    /// Sets of spheres that a random packing made, and the digest of what decided it; none in a scene that is built in code, which may have moved them.
+    pub packed: Vec<(SetIndex, u64)>,
     /// Keys of the text that nothing reads, and why.
     pub unread: Vec<String>,
 }

@@ -34,10 +34,7 @@ impl Simulation {
     /// The same in parts of at most so many time steps: goes on with the communication step that is under way, or begins one of
     /// `interval` \[s\]. Returns whether its end is reached. Parts, and saving the state between them, change no bit.
     pub fn advance_part(&mut self, interval: f64, most: u64) -> Result<bool, RunError> {
-        let mut workers = std::mem::take(&mut self.workers);
-        let outcome = workers.run(|threads| self.run((interval, most), threads));
-        self.workers = workers;
-        let (elapsed, result) = outcome?;
+        let (elapsed, result) = self.with_helpers(|it, threads| it.run((interval, most), threads))?;
         if self.state.underway.is_some() {
             return Ok(false);
         }
