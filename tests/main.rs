@@ -34,6 +34,7 @@ mod heat;
 mod lanes;
 mod loaded;
 mod losses;
+mod machines;
 mod motions;
 mod neighbours;
 mod nodes;

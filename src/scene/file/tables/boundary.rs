@@ -21,9 +21,10 @@ pub(in crate::scene::file) struct BoundaryTable {
     pub(in crate::scene::file) wear: Vec<WearModel>,
     /// Material of a surface.
     pub(in crate::scene::file) material: Option<String>,
-    /// How it moves.
-    #[serde(default)]
-    pub(in crate::scene::file) motion: motion::Keys,
+    /// How it moves; absent: not, or as `moves_with` says.
+    pub(in crate::scene::file) motion: Option<motion::Keys>,
+    /// Name of the boundary with which it moves.
+    pub(in crate::scene::file) moves_with: Option<String>,
     /// What the nodes of a mesh do.
     #[serde(default)]
     pub(in crate::scene::file) nodes: NodeMotion,
