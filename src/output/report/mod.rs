@@ -272,7 +272,11 @@ fn exchange(scene: &Scene) -> Vec<String> {
         let moves = STRAINS.into_iter().zip(cell.motion).filter_map(|(name, motion)| match motion {
             CellMotion::Fixed => None,
             CellMotion::Driven => Some(format!("{name} driven")),
-            CellMotion::Servo(servo) => Some(format!("{name} servo, from {} Pa on", servo.stress)),
+            CellMotion::Prescribed(rate) => Some(format!("{name} at {rate} 1/s")),
+            CellMotion::Servo(servo) => {
+                let of = if motion.serves_mean() { " of the mean stress" } else { "" };
+                Some(format!("{name} servo{of}, from {} Pa on", servo.stress))
+            }
         });
         let moves: Vec<String> = moves.collect();
         let moves = if moves.is_empty() { "fixed".to_owned() } else { moves.join(", ") };
