@@ -23,8 +23,8 @@ friction = 0.5
 [particles.few]
 material = "a"
 list = [
-    { position = [0.004, 0.0, 0.0049], radius = 0.005 }, { position = [0.016, 0.0, 0.0049], radius = 0.005 },
-    { position = [0.010, 0.0, 0.0145], radius = 0.005 },
+    { position = [0.0049, 0.0, 0.0049], radius = 0.005 }, { position = [0.0151, 0.0, 0.0049], radius = 0.005 },
+    { position = [0.0100, 0.0, 0.0136], radius = 0.005 },
 ]
 [boundary.right]
 material = "a"

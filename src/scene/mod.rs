@@ -47,7 +47,7 @@ pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
-pub use fluid::{Fluid, FluidVelocity};
+pub use fluid::{Fluid, FluidVelocity, Pressure};
 pub use governing::GoverningLaws;
 pub use grid::{Grid, GridOutput};
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};

@@ -37,6 +37,10 @@ pub(in crate::interface) enum Each {
     Fluid,
     /// One for the fluid and each axis: `<fluid>.<name>.<axis>`.
     FluidAxis,
+    /// One for each cell of its grid: `<fluid>.cell[<number>].<name>`.
+    FluidCell,
+    /// One for each cell of its grid and axis: `<fluid>.cell[<number>].<name>.<axis>`.
+    FluidCellAxis,
     /// One for each node that moves by itself: `<boundary>.node[<number>].<name>`.
     NodeScalar,
     /// One for each insertion: `<insertion>.<name>`.
@@ -89,6 +93,7 @@ impl Each {
         match self {
             Self::Node | Self::NodeScalar => Some("node"),
             Self::Cell | Self::CellAxis | Self::CellComponent | Self::CellSet => Some("cell"),
+            Self::FluidCell | Self::FluidCellAxis => Some("cell"),
             _ => None,
         }
     }
@@ -96,13 +101,15 @@ impl Each {
     /// The same where it is the same in every scene.
     fn fixed_names(self) -> &'static [&'static str] {
         match self {
-            Self::Axis | Self::Node | Self::FluidAxis | Self::RegionAxis | Self::CellAxis | Self::ProbeAxis => &AXES,
+            Self::Axis | Self::Node | Self::RegionAxis | Self::CellAxis | Self::ProbeAxis => &AXES,
+            Self::FluidAxis | Self::FluidCellAxis => &AXES,
             Self::Component | Self::CellComponent | Self::Strain => &STRAINS,
             Self::Tangent => &TANGENTS,
             Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary
             | Self::Fluid
+            | Self::FluidCell
             | Self::NodeScalar
             | Self::Region
             | Self::Cell

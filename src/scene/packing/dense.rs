@@ -122,7 +122,7 @@ mod tests {
             radius: Positive::new(0.75).unwrap(),
         };
         PackingTable {
-            corners: None,
+            r#box: None,
             cylinder: Some(cylinder),
             count: None,
             solid_fraction: Fraction::new(solid_fraction),

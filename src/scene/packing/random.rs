@@ -158,7 +158,7 @@ mod tests {
     fn cube(count: u32, radii: [f64; 2]) -> PackingTable {
         let [least, most] = radii.map(|radius| Positive::new(radius).unwrap().get());
         PackingTable {
-            corners: Some(Corners([[-1.0; 3], [0.0; 3]])),
+            r#box: Some(Corners([[-1.0; 3], [0.0; 3]])),
             cylinder: None,
             count: NonZeroU32::new(count),
             solid_fraction: None,
