@@ -40,7 +40,7 @@ pub use about::About;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
-pub use cell::{Cell, CellMotion, StressServo};
+pub use cell::{Cell, CellMotion, ServedStress, StressServo};
 pub use checked::Scene;
 pub use clump::{Clump, ClumpShape, OrientationKey};
 pub use column::ColumnStart;

@@ -12,6 +12,7 @@ mod damping;
 mod exchange;
 mod finding;
 mod fluid;
+mod following;
 mod heat;
 mod motion;
 mod named_tables;
