@@ -26,6 +26,7 @@ mod every_surface;
 mod exchange;
 mod floors;
 mod fluid;
+mod fluid_grids;
 mod foreseen_step;
 mod forged_states;
 mod free_groups;

@@ -138,7 +138,8 @@ class Coupling:
         self.exchange = exchange
         self.step = step
         self.control = control or StepControl()
-        columns = [*interface.names, *(_force_name(name, exchange.force) for name in interface.names)]
+        answers = getattr(interface, "answers", None) or [_force_name(one, exchange.force) for one in interface.names]
+        columns = [*interface.names, *answers]
         # What is a column anyway is not watched a second time.
         watched, self._read_watched, units = self._reading(_without(watch, columns))
         self._watched = dict(watch) if isinstance(watch, Mapping) else {}
@@ -377,7 +378,7 @@ class Coupling:
             return None, 0.0, str(refusal)
         bend = 0.0 if self.control.error is None else self._bend(step, outcome.partner_force)
         start = expected if self.exchange.repeats else outcome.partner_force
-        defect = float((outcome.force - start) @ (outcome.displacement - begin))
+        defect = float((outcome.force - start) @ self._way(begin, outcome.displacement, step.length))
         last = self._level >= self.control.halvings or (outcome.jumps and (self._jumped or not self._softens(step)))
         return outcome, defect, self.control.objection(outcome, defect, bend, last)
 
@@ -429,7 +430,7 @@ class Coupling:
         """The partner follows, and the row is written."""
         before = self.partner.displacement
         self.exchange.commit(self.partner, step, outcome)
-        way = self._way(self.partner.displacement - before, step.length)
+        way = self._way(before, self.partner.displacement, step.length)
         on_partner = float(outcome.partner_force @ way) + outcome.further_work
         on_units = self._work_on_units(step.length)
         self._before, self._force = self._force, outcome.force
@@ -450,17 +451,20 @@ class Coupling:
         self.record.rows.append(row)
         return row
 
-    def _way(self, moved: Vector, length: float) -> Vector:
-        """What makes energy of a force: the way; of a heat flow: the time."""
+    def _way(self, begin: Vector, end: Vector, length: float) -> Vector:
+        """What makes energy of a force: the way between two displacements; of a heat flow: the time."""
+        if hasattr(self.interface, "way"):
+            own: Vector = self.interface.way(begin, end, length)
+            return own
         warm = [name.endswith(f".{TEMPERATURE}") for name in self.interface.names]
-        return np.where(warm, length, moved)
+        return np.where(warm, length, end - begin)
 
     def _work_on_units(self, length: float) -> float:
         """Work on the particles in the last step, by the account of the units or by the mean force \\[J\\]."""
         stood, self._stood = self._stood, self.interface.displacement
         total = self.interface.work
         if total is None:
-            return -float(self.interface.force("mean") @ self._way(self._stood - stood, length))
+            return -float(self.interface.force("mean") @ self._way(stood, self._stood, length))
         before, self._worked = self._worked, total
         return total - before
 

@@ -25,6 +25,9 @@ PATIENCE = 20
 #: A compliance that is less symmetric is that of no work.
 SKEW = 0.1
 
+#: A difference of trials that others span but for a smaller part of it tells more of its error than of the particles.
+INDEPENDENT = 0.02
+
 #: By which part of the farthest move in a step `Newton` displaces a direction.
 PERTURBATION = 1e-4
 
@@ -45,15 +48,19 @@ class Measure:
     """How directions compare: displacements in metres and in radians, of light and of heavy parts of the partner.
 
     A direction weighs what a force of 1 moves it, so that squares of weighed displacements compare as energies do. A
-    partner that does not tell its compliance has equal weights.
+    partner that does not tell its compliance has equal weights, or those that it gives itself.
     """
 
-    def __init__(self, compliance: Matrix | None, directions: int) -> None:
+    def __init__(self, compliance: Matrix | None, directions: int, weights: Vector | None = None) -> None:
         #: Change of displacement per force \\[m/N\\], or ``None``.
         self.compliance = compliance
         sizes = np.zeros(directions) if compliance is None else np.sqrt(np.abs(np.diag(compliance)))
         #: Weights of the directions. What no force moves weighs as the least of the others.
         self.weights = np.where(sizes > 0.0, sizes, sizes[sizes > 0.0].min(initial=np.inf))
+        #: Whether the partner weighs them itself: they are values such as velocities, not places that move.
+        self.of_values = weights is not None
+        if weights is not None:
+            self.weights = weights
         if not np.isfinite(self.weights).all():
             self.weights = np.ones(directions)
         #: By which part of itself the compliance is not symmetric.
@@ -70,7 +77,7 @@ class Measure:
     def moved(self, force: Vector) -> Vector:
         """How far forces of these sizes move each direction, whatever their signs \\[m, rad\\]."""
         if self.compliance is None:
-            return np.zeros(len(force))
+            return np.zeros(len(self.weights))
         found: Vector = np.abs(self.compliance) @ np.abs(force)
         return found
 
@@ -78,7 +85,7 @@ class Measure:
         """R for which \\|R u\\|² is the work that moves the partner by u, but for a factor."""
         if self._root is None:
             known = self.compliance
-            self._root = np.eye(len(self.weights)) if known is None else root_of_inverse(known)
+            self._root = np.diag(1.0 / self.weights) if known is None else root_of_inverse(known)
         return self._root
 
 
@@ -253,7 +260,7 @@ class Implicit(Exchange):
         Under that force the partner makes another motion; the known answer of the particles closes the difference.
         """
         told = search.partner.predict(expected, search.step)
-        if not self._paces:
+        if not self._paces or search.measure.of_values:
             return told
         length = search.step.length
         (pace, newer), (before, older) = self._paces[0], self._paces[-1]
@@ -268,6 +275,8 @@ class Implicit(Exchange):
             compliance = partner.compliance(step)
         except ValueError:
             compliance = None
+        if compliance is None and hasattr(partner, "weights"):
+            return Measure(None, len(partner.displacement), partner.weights(step))
         known = self._measure
         if known is None or known.compliance is not compliance or len(known.weights) != len(partner.displacement):
             known = self._measure = Measure(compliance, len(partner.displacement))
@@ -480,7 +489,7 @@ class QuasiNewton(Implicit):
             return self.relaxation * residual
         compliance = search.measure.compliance
         if compliance is None:
-            return self._by_least_squares(columns, residual)
+            return self._by_least_squares(columns, residual, search.measure.weights)
         known = self._stiffness(columns, search.measure.weights)
         return vector(np.linalg.solve(np.eye(len(residual)) + compliance @ known, residual))
 
@@ -502,14 +511,16 @@ class QuasiNewton(Implicit):
             found = found + np.outer(force, force) / float(moved @ force)
         return found
 
-    def _by_least_squares(self, columns: list[tuple[Vector, Vector, Vector]], residual: Vector) -> Vector:
-        """The same by the differences alone."""
-        residuals, answers = self._independent([(left, moved) for left, moved, _ in columns])
-        weights = np.linalg.lstsq(residuals, -residual, rcond=None)[0]
-        along: Vector = answers @ weights
+    def _by_least_squares(
+        self, columns: list[tuple[Vector, Vector, Vector]], residual: Vector, weights: Vector
+    ) -> Vector:
+        """The same by the differences alone, each direction by its weight."""
+        residuals, answers = self._independent([(left / weights, moved) for left, moved, _ in columns])
+        shares = np.linalg.lstsq(residuals, -residual / weights, rcond=None)[0]
+        along: Vector = answers @ shares
         # What the differences do not span is relaxed.
-        rest = residual + residuals @ weights
-        full = len(weights) >= len(residual)
+        rest = residual + weights * (residuals @ shares)
+        full = len(shares) >= len(residual)
         return along + (0.0 if full else self.relaxation) * rest
 
     def accepted(self, search: Search) -> None:
@@ -539,7 +550,7 @@ class QuasiNewton(Implicit):
             for direction in directions:
                 rest = rest - (rest @ direction) * direction
             size = sqrt(rest @ rest)
-            if size > 1e-6:
+            if size > INDEPENDENT:
                 directions.append(rest / size)
                 kept.append((residual, answer))
         return np.array([pair[0] for pair in kept]).T, np.array([pair[1] for pair in kept]).T

@@ -15,6 +15,9 @@ from cograin.vector import Matrix, Vector, vector
 class Partner(Protocol):
     """The other side of an interface: takes the force of the particles and determines the displacement.
 
+    Where the directions are no places but values, such as velocities and pressure gradients, ``weights(step)`` says in
+    place of a compliance how they compare.
+
     For a checkpoint it also has ``memory()``, which gives what its steps change, and ``recall(memory)``. A checkpoint
     is that of a partner with the same attributes; ``settings()`` gives others in their place, by their names.
     """

@@ -95,6 +95,8 @@ quantities! {
     Stiffness Some("N/m"), 1 0 -2 0;
     /// Pressure over length \[Pa/m\]
     StiffnessPerArea Some("Pa/m"), 1 -2 -2 0;
+    /// Gradient of a pressure \[Pa/m\]
+    PressureGradient Some("Pa/m"), 1 -2 -2 0;
     /// Energy over volume \[J/m³\]
     EnergyDensity Some("J/m3"), 1 -1 -2 0;
     /// Energy over area \[J/m²\]

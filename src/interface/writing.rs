@@ -98,7 +98,7 @@ impl Interface {
         let axis = match &variable.source {
             Source::Row(rows::Source { row: rows::Row { write: Some(write), .. }, at }) => match (write.input)(*at) {
                 Input::Axis(boundary, axis) => Some((boundary, axis)),
-                Input::Node(..) | Input::Rate(_) | Input::Strain(_) | Input::Heat(..) | Input::Fluid(_) => None,
+                Input::Node(..) | Input::Rate(_) | Input::Strain(_) | Input::Heat(..) | Input::Fluid(..) => None,
             },
             _ => None,
         };

@@ -1,8 +1,9 @@
-//! `[fluid.<name>]`: a fluid that is everywhere, whose motion is given.
+//! `[fluid.<name>]`: a fluid that is everywhere or in the box of a grid, whose motion is given.
 
-use super::{AxisMotion, MotionPlane, ParticleShape, SceneDraft};
+use super::{AxisMotion, Cell, Grid, MotionPlane, ParticleShape, SceneDraft};
 use crate::base::document::Mistake;
 use crate::laws::drag::DragModel;
+use serde::Deserialize;
 
 /// A fluid around the particles.
 #[derive(Clone, Debug)]
@@ -15,12 +16,26 @@ pub struct Fluid {
     pub viscosity: f64,
     /// How it moves between the particles.
     pub velocity: FluidVelocity,
+    /// The grid of the scene in whose box it is, by its number; none where it is everywhere.
+    pub grid: Option<usize>,
+    /// What the gradient of the pressure that the outside gives contains; none where none is given.
+    pub pressure: Option<Pressure>,
     /// Part of the space that the particles leave to it, where the scene says so.
     pub porosity: Option<f64>,
     /// The law of its drag.
     pub drag: DragModel,
     /// Whether it brakes the rotation of the particles.
     pub torque: bool,
+}
+
+/// What a gradient of the pressure contains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Pressure {
+    /// All of it, that of the fluid at rest among it.
+    Total,
+    /// That of the motion alone: ρ g is to be added.
+    Dynamic,
 }
 
 /// The velocity of a fluid.
@@ -73,6 +88,50 @@ impl FluidVelocity {
     }
 }
 
+impl Fluid {
+    /// How many places it is given values for: the cells of its grid, or one.
+    pub fn cells(&self, grids: &[Grid]) -> usize {
+        self.grid.map_or(1, |grid| grids[grid].shape.cells())
+    }
+
+    /// The gradient of the pressure at the start that the outside gives, if it gives any: that of the fluid at rest \[Pa/m\].
+    pub fn gradient_at_start(&self, gravity: [f64; 3]) -> Option<[f64; 3]> {
+        self.pressure.map(|pressure| match pressure {
+            Pressure::Total => gravity.map(|part| self.density * part),
+            Pressure::Dynamic => [0.0; 3],
+        })
+    }
+
+    /// Numbers of the unit for each cell of its grid.
+    pub(in crate::scene) fn numbers(&self) -> u64 {
+        let inputs = u64::from(self.velocity.is_driven()) + u64::from(self.pressure.is_some());
+        5 + 3 * inputs
+    }
+}
+
+/// What speaks against the grid of a fluid: key and why.
+fn grid_objections(fluid: &Fluid, scene: &SceneDraft) -> Vec<(&'static str, String)> {
+    let Some(grid) = fluid.grid.map(|grid| &scene.grids[grid]) else { return Vec::new() };
+    let mut found = Vec::new();
+    if fluid.porosity.is_some() {
+        let message =
+            format!("expected no porosity beside a grid, found one: the cells of [grid.{}] tell it", grid.name);
+        found.push(("porosity", message));
+    }
+    let goes_through = |axis: &usize| grid.shape.repeats[*axis];
+    let repeats = |axis: &usize| scene.cell.as_ref().is_some_and(|cell: &Cell| cell.lattice.periodic[*axis]);
+    if let Some(axis) = (0..3).filter(repeats).find(|axis| !goes_through(axis)) {
+        let axis = AxisMotion::WORDS[axis];
+        let message = format!(
+            "expected a grid that reaches from face to face of the periodic cell along {axis}, at right angles to its other edges, found \
+             [grid.{}]",
+            grid.name
+        );
+        found.push(("grid", message));
+    }
+    found
+}
+
 /// What speaks against the fluid in this scene: table, key, and why.
 pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<(String, &'static str, Mistake)> {
     let Some(fluid) = &scene.fluid else { return Vec::new() };
@@ -81,10 +140,13 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<(String, &'static 
     let mut refuse = |table: String, key, message: &str| {
         found.push((table, key, Mistake::Refused { message: message.to_owned() }));
     };
-    if fluid.porosity.is_none() && !fluid.drag.is_of_one_sphere() {
+    for (key, message) in grid_objections(fluid, scene) {
+        refuse(table.clone(), key, &message);
+    }
+    if fluid.porosity.is_none() && fluid.grid.is_none() && !fluid.drag.is_of_one_sphere() {
         let law = fluid.drag.name();
         let expected = format!(
-            "the law {law} needs it: part of the space that the particles leave to the fluid, 1 for single grains"
+            "the law {law} needs it, or a grid: part of the space that the particles leave to the fluid, 1 for single grains"
         );
         found.push((table, "porosity", Mistake::Missing { expected }));
         return found;

@@ -1,6 +1,6 @@
 //! Grids: boxes divided into cells, each of which is looked at.
 
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::quantity::{Corners, Counts};
 use crate::laws::region;
 use crate::scene::{Cell, SceneDraft};
@@ -40,25 +40,27 @@ pub enum GridOutput {
     Count,
     /// Those of each set.
     CountBySet,
+    /// How far each set is mixed with the others, a number of the whole grid.
+    MixingIndex,
 }
 
-/// `[grid.<name>]` as a scene writes it.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct GridKeys {
-    /// Corners of the box \[m\].
-    #[serde(rename = "box")]
-    corners: Corners,
-    /// Cells along each axis.
-    counts: Counts,
-    /// What is told of each cell; the porosity where nothing is said.
-    outputs: Option<Vec<GridOutput>>,
+keys! {
+    /// `[grid.<name>]` as a scene writes it.
+    #[derive(Clone, Debug)]
+    pub(crate) struct GridKeys {
+        /// Lower and upper corner \[m\].
+        r#box: Corners = "required",
+        /// `[nx, ny, nz]`: cells along each axis, each ≥ 1.
+        counts: Counts = "required",
+        /// Any of the words below; `[]`: none.
+        outputs: Option<Vec<GridOutput>> = "`[\"porosity\"]`",
+    }
 }
 
 impl Grid {
     /// The grid that is written so.
     pub(crate) fn of(name: &str, keys: &GridKeys) -> Self {
-        let (Corners(corners), Counts(counts)) = (keys.corners, keys.counts);
+        let (Corners(corners), Counts(counts)) = (keys.r#box, keys.counts);
         let shape = region::Grid { corners, counts, repeats: [false; 3] };
         let outputs = keys.outputs.clone().unwrap_or_else(|| vec![GridOutput::Porosity]);
         Self { name: name.to_owned(), shape, outputs }
@@ -69,12 +71,13 @@ impl Grid {
         self.outputs.contains(&output)
     }
 
-    /// What cannot be of it, in a scene with so many sets, with or without heat: the key, what was found and what is expected.
-    pub(crate) fn objections(&self, sets: usize, has_heat: bool) -> Vec<(&'static str, Mistake)> {
+    /// What cannot be of it, in a scene with so many sets and so many numbers of a fluid for each cell, with or without heat: the key, what
+    /// was found and what is expected.
+    pub(crate) fn objections(&self, sets: usize, of_fluid: u64, has_heat: bool) -> Vec<(&'static str, Mistake)> {
         let refused = |key, found: String, expected: String| (key, Mistake::Unexpected { found, expected });
         let mut found = Vec::new();
         let cells: u64 = self.shape.counts.iter().fold(1, |all, &count| all.saturating_mul(u64::from(count)));
-        let each: u64 = self.outputs.iter().map(|output| output.numbers(sets)).sum::<u64>().max(1);
+        let each = (self.outputs.iter().map(|output| output.numbers(sets)).sum::<u64>() + of_fluid).max(1);
         if cells.saturating_mul(each) > MOST_NUMBERS {
             let [nx, ny, nz] = self.shape.counts;
             let what = if each == 1 { "one number".to_owned() } else { format!("{each} numbers") };
@@ -91,6 +94,10 @@ impl Grid {
         if let Some(place) = (0..self.outputs.len()).find(|place| twice(*place)) {
             let found_twice = format!("{:?} twice", self.outputs[place].name());
             found.push(refused("outputs", found_twice, "each output once".to_owned()));
+        }
+        if self.tells(GridOutput::MixingIndex) && sets < 2 {
+            let expected = "two sets of particles or more, between which it is a measure".to_owned();
+            found.push(refused("outputs", format!("\"mixing_index\" in a scene of {sets} set"), expected));
         }
         if self.tells(GridOutput::Temperature) && !has_heat {
             let expected = "a contact law with [contact.<law>.heat] beside it".to_owned();
@@ -112,6 +119,7 @@ impl GridOutput {
             Self::Temperature => "temperature",
             Self::Count => "count",
             Self::CountBySet => "count_by_set",
+            Self::MixingIndex => "mixing_index",
         }
     }
 
@@ -121,6 +129,7 @@ impl GridOutput {
             Self::Velocity => 3,
             Self::Stress => 6,
             Self::CountBySet => sets as u64,
+            Self::MixingIndex => 0,
             Self::Porosity | Self::Density | Self::GranularTemperature | Self::Temperature | Self::Count => 1,
         }
     }
@@ -146,11 +155,12 @@ pub(crate) fn repeat(grids: &mut [Grid], cell: Option<&Cell>) {
 
 /// What cannot be of the grids of a scene: table, key and mistake.
 pub(crate) fn objections(scene: &SceneDraft) -> Vec<(String, &'static str, Mistake)> {
-    let of = |grid: &Grid| {
+    let of = |(place, grid): (usize, &Grid)| {
         let table = format!("grid.{}", grid.name);
-        grid.objections(scene.sets.len(), scene.has_heat())
+        let fluid = scene.fluid.as_ref().filter(|fluid| fluid.grid == Some(place));
+        grid.objections(scene.sets.len(), fluid.map_or(0, super::Fluid::numbers), scene.has_heat())
             .into_iter()
             .map(move |(key, mistake)| (table.clone(), key, mistake))
     };
-    scene.grids.iter().flat_map(of).collect()
+    scene.grids.iter().enumerate().flat_map(of).collect()
 }

@@ -5,7 +5,7 @@ use super::{Body, RigidBody};
 use crate::base::lanes::Shared;
 use crate::base::number::Vector;
 use crate::base::threads::Context;
-use crate::engine::fluid::Medium;
+use crate::engine::fluid::{Medium, Stream};
 use crate::engine::integration::{Fields, Load, brakes};
 use crate::engine::state::{CellState, Clumps, Particles, State};
 use crate::scene::Scene;
@@ -102,8 +102,8 @@ fn load_boundaries(fields: &Fields, bodies: &[Option<RigidBody>], state: &mut St
 
 /// The same of clumps, with the loads of their spheres as passes left them.
 fn load_clumps((fields, medium): (&Fields, Option<&Medium>), state: &mut State, context: &Context) -> Vector {
-    let stream = medium.map(|medium| (medium, medium.stream(state)));
-    let State { particles, clumps, .. } = state;
+    let State { particles, clumps, fluid, .. } = state;
+    let stream = medium.zip(fluid.as_ref()).map(|(medium, fluid)| Stream::of(medium, fluid));
     let count = clumps.len();
     let damps = fields.damps();
     clumps.braking.resize(if damps { count } else { 0 }, [[0.0; 4]; 2]);
@@ -120,10 +120,12 @@ fn load_clumps((fields, medium): (&Fields, Option<&Medium>), state: &mut State, 
             let mut dashpots = [0.0; 2];
             if fields.act_beside_weight() {
                 let motion = [body.rigid.velocity, Vector::from(clumps_now.angular_velocity[clump])];
-                if let Some((medium, stream)) = stream {
+                if let Some((stream, here)) =
+                    stream.and_then(|it| Some((it, it.at(clumps_now.position[clump].into())?)))
+                {
                     let other = body.own_loads(fields, particles).into_iter().fold(load[0], |sum, own| sum + own[0]);
-                    let (diameter, mass) = (medium.diameter(clumps_now, clump), body.rigid.mass);
-                    let flow = stream.on(diameter, motion, (mass, other), 0.5 * context.step);
+                    let (diameter, mass) = (stream.diameter(clumps_now, clump), body.rigid.mass);
+                    let flow = here.on(diameter, motion, (mass, other), 0.5 * context.step);
                     load = [load[0] + flow.force, load[1] + flow.torque];
                     dashpots = [flow.drag, flow.turning];
                 }

@@ -1,47 +1,65 @@
-//! The velocity of the fluid in time.
+//! The velocity of the fluid and the gradient of its pressure in time.
 
-use crate::engine::state::fluid::FluidState;
+use super::porosity::LEAST;
+use crate::engine::state::FluidState;
+use crate::engine::state::fluid::{Course, EXCHANGED};
 use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::{Fluid, Scene};
 
-/// The fluid of a scene at time 0, if it has one.
+/// The fluid of a scene at time 0, if it has one, with cells that are empty.
 pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
-    let velocity = scene.fluid.as_ref()?.velocity.at_start();
-    Some(FluidState { velocity, target: velocity, course: [velocity; 2], ..FluidState::default() })
+    let fluid = scene.fluid.as_ref()?;
+    let cells = fluid.cells(&scene.grids);
+    let mut velocity = Course::at_rest(cells, fluid.velocity.at_start());
+    let porosity = fluid.porosity.unwrap_or(1.0).max(LEAST);
+    velocity.now.iter_mut().for_each(|row| row[3] = porosity);
+    Some(FluidState {
+        velocity,
+        pressure_gradient: fluid
+            .gradient_at_start(scene.gravity)
+            .map_or_else(Course::default, |gradient| Course::at_rest(cells, gradient)),
+        porosity: vec![1.0; if fluid.grid.is_some() { cells } else { 0 }],
+        exchanged: vec![[0.0; 4]; EXCHANGED * cells],
+        mean: vec![[0.0; 4]; EXCHANGED * cells],
+        ..FluidState::default()
+    })
 }
 
-/// Begins a communication step of this length \[s\]: a driven velocity now knows where it goes.
+/// Begins a communication step of this length \[s\]: what is driven now knows where it goes.
 pub(crate) fn begin(fluid: Option<&mut FluidState>, interval: f64) {
     let Some(fluid) = fluid else { return };
-    for axis in 0..3 {
-        fluid.target[axis] += fluid.target_rate[axis] * interval;
-    }
-    fluid.course = [fluid.velocity, fluid.target];
-    (fluid.target_rate, fluid.impulse) = ([0.0; 3], [0.0; 3]);
+    fluid.velocity.begin(interval);
+    fluid.pressure_gradient.begin(interval);
+    fluid.exchanged.fill([0.0; 4]);
 }
 
 /// Ends a communication step after this time \[s\].
 pub(crate) fn end(fluid: Option<&mut FluidState>, elapsed: f64) {
     if let Some(fluid) = fluid.filter(|_| elapsed > 0.0) {
-        fluid.mean_drag = fluid.impulse.map(|part| part / elapsed);
+        for (mean, sum) in fluid.mean.iter_mut().zip(&fluid.exchanged) {
+            *mean = sum.map(|part| part / elapsed);
+        }
     }
 }
 
-/// Brings the velocity to the end of a time step.
+/// Brings velocity and gradient to the end of a time step. The velocity goes on a ramp; the gradient is that of its input throughout a
+/// communication step, as its mean is what continuity demands of that step.
 pub(crate) fn advance(fluid: &Fluid, state: &mut FluidState, progress: &Progress) {
-    state.velocity = fluid.velocity.at(progress.time).unwrap_or_else(|| {
-        let [start, end] = state.course;
-        let left = if progress.is_last() { 0.0 } else { 1.0 - progress.share(InputCourse::Ramp) };
-        [0, 1, 2].map(|axis| end[axis] + (start[axis] - end[axis]) * left)
-    });
+    let left = || if progress.is_last() { 0.0 } else { 1.0 - progress.share(InputCourse::Ramp) };
+    if fluid.velocity.is_driven() {
+        state.velocity.advance(left());
+    } else if fluid.velocity.changes() {
+        state.velocity.fill(fluid.velocity.at(progress.time).unwrap_or_default());
+    }
+    if fluid.pressure.is_some() {
+        state.pressure_gradient.advance(0.0);
+    }
 }
 
-/// Takes the input of another state at the start: the velocity is there at once. Returns whether anything changed.
+/// Takes the inputs of another state at the start: all is there at once. Returns whether anything changed.
 pub(crate) fn put(scene: &Scene, fluid: Option<&mut FluidState>, given: Option<&FluidState>) -> bool {
     let driven = scene.fluid.as_ref().is_some_and(|fluid| fluid.velocity.is_driven());
-    let (Some(fluid), Some(given), true) = (fluid, given, driven) else { return false };
-    let changed = fluid.velocity != given.target;
-    (fluid.target, fluid.target_rate) = (given.target, given.target_rate);
-    (fluid.velocity, fluid.course) = (given.target, [given.target; 2]);
-    changed
+    let (Some(fluid), Some(given)) = (fluid, given) else { return false };
+    let pushed = fluid.pressure_gradient.put(&given.pressure_gradient);
+    (driven && fluid.velocity.put(&given.velocity)) || pushed
 }

@@ -119,6 +119,7 @@ impl Simulation {
             self.state.underway = Some(underway);
             return Ok((underway.elapsed(), Ok(())));
         }
+        fluid::renew(self.medium.as_ref(), &self.scene, &mut self.state, &standing);
         let looks = || self.check_domain().and_then(|()| self.check_plane()).and_then(|()| self.check_books());
         Ok((underway.elapsed(), result.and_then(|()| looks())))
     }

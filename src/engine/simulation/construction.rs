@@ -12,7 +12,7 @@ use crate::engine::cell::Cell;
 use crate::engine::contacts::suppression::Suppression;
 use crate::engine::energy::PendingWork;
 use crate::engine::flow::Flow;
-use crate::engine::fluid::Medium;
+use crate::engine::fluid::{self, Medium};
 use crate::engine::integration::{self, Fields};
 use crate::engine::neighbours;
 use crate::engine::state::{Foresight, Pace, State, StateFault};
@@ -111,6 +111,7 @@ impl Simulation {
         transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
         let context = self.standing();
+        fluid::renew(self.medium.as_ref(), &self.scene, &mut self.state, &context);
         let result = self.evaluate(&context);
         self.book_second_kick(None, &context);
         self.open_energy_book();

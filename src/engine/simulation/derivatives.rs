@@ -9,6 +9,7 @@ use crate::base::number::Vector;
 use crate::base::quantity::BoundaryIndex;
 use crate::engine::bodies::loads::came_to;
 use crate::engine::state::contacts::TOUCHING;
+use crate::engine::state::fluid::{Course, FluidField};
 use crate::engine::state::ledger::Source;
 
 /// How far a one-sided difference displaces a body, over the median overlap of the contacts that the input moves. By so much the force
@@ -38,8 +39,8 @@ pub enum Input {
     Strain(usize),
     /// The temperature of a boundary or of one of its nodes, by its number from 0, or the heat flow into a boundary from the outside.
     Heat(BoundaryIndex, Option<usize>),
-    /// Of a component of the velocity of the fluid.
-    Fluid(usize),
+    /// Of what the fluid is given in a cell of its grid, by its number from 0, along x, y or z.
+    Fluid(FluidField, usize, usize),
 }
 
 /// Why there is no derivative.
@@ -142,7 +143,9 @@ impl Simulation {
                 let surface = state.heat.as_mut().and_then(|heat| heat.surface_mut(boundary.index(), node));
                 surface.map(|surface| &mut surface.target)
             }
-            Input::Fluid(axis) => state.fluid.as_mut().map(|fluid| &mut fluid.target[axis]),
+            Input::Fluid(field, cell, axis) => {
+                state.fluid.as_mut().map(|fluid| &mut fluid.given_mut(field).target[cell][axis])
+            }
             Input::Strain(component) => state.cell.as_mut().map(|cell| &mut cell.target[component]),
             Input::Rate(insertion) => {
                 state.exchange.as_mut().and_then(|it| it.feeds.get_mut(insertion)).map(|feed| &mut feed.rate)
@@ -164,7 +167,7 @@ impl Simulation {
             Input::Node(boundary, _, axis) => (boundary, axis),
             Input::Rate(insertion) => return part * self.usual_rate(insertion, length),
             Input::Strain(component) => return self.usual_strain(component, part),
-            Input::Fluid(_) => return run.derivative_displacement * self.usual_fluid(length),
+            Input::Fluid(field, ..) => return run.derivative_displacement * self.usual_fluid(field, length),
             Input::Heat(boundary, _) => return run.derivative_displacement * self.usual_heat(boundary, length),
         };
         let CurrentContact { overlap, radius, arm } = self.met_by(boundary);
@@ -217,12 +220,19 @@ impl Simulation {
         if boundary.capacity > 0.0 { boundary.capacity * warmer / length } else { warmer }
     }
 
-    /// By how much the velocity of the fluid is displaced in a communication step of this length \[s\]: a part of the speeds in it, or of what takes a
-    /// particle past its radius. Drag follows it smoothly.
-    fn usual_fluid(&self, length: f64) -> f64 {
-        let flow = self.state.fluid.as_ref().map_or(0.0, |fluid| Vector::from(fluid.velocity).length());
-        let speed = flow.max(self.system().fastest()).max(self.search.smallest_radius().min(f64::MAX) / length);
-        WARMER * speed
+    /// By how much what the fluid is given is displaced in a communication step of this length \[s\]: a part of the speeds in it, or of what
+    /// takes a particle past its radius; the gradient of its pressure by what accelerates the fluid so. Drag follows it smoothly.
+    fn usual_fluid(&self, field: FluidField, length: f64) -> f64 {
+        let largest = |course: &Course| course.now.iter().map(|row| Vector::from(*row).length()).fold(0.0, f64::max);
+        let most = self.state.fluid.as_ref().map_or(0.0, |fluid| largest(fluid.given(field)));
+        let speed = self.system().fastest().max(self.search.smallest_radius().min(f64::MAX) / length);
+        WARMER
+            * match field {
+                FluidField::Velocity => most.max(speed),
+                FluidField::PressureGradient => {
+                    most.max(self.scene.fluid.as_ref().map_or(1.0, |fluid| fluid.density) * speed / length)
+                }
+            }
     }
 
     /// The rate of an insertion, or that of one particle in a communication step of this length \[s\] where that is more.

@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use crate::base::quantity::BoundaryIndex;
+use crate::engine::state::fluid::FluidField;
 
 impl Simulation {
     /// Sets the input of an axis for the next interval, along x, y, z (0 to 2) or about them (3 to 5): where a driven axis
@@ -86,17 +87,18 @@ impl Simulation {
         }
     }
 
-    /// Sets a component of the velocity of the fluid for the end of the next interval \[m/s\].
-    pub fn set_fluid(&mut self, axis: usize, value: f64) {
-        if let Some(fluid) = &mut self.state.fluid {
-            (fluid.target[axis], fluid.target_rate[axis]) = (value, 0.0);
+    /// Sets a component of what the fluid is given in a cell of its grid, by its number from 0, for the end of the next interval: its
+    /// velocity \[m/s\], the gradient of its pressure \[Pa/m\]. Without a grid there is one cell.
+    pub fn set_fluid(&mut self, field: FluidField, (cell, axis): (usize, usize), value: f64) {
+        if let Some(course) = self.state.fluid.as_mut().map(|fluid| fluid.given_mut(field)) {
+            (course.target[cell][axis], course.target_rate[cell][axis]) = (value, 0.0);
         }
     }
 
-    /// The rate of that value over the next interval \[m/s²\].
-    pub fn set_fluid_rate(&mut self, axis: usize, rate: f64) {
-        if let Some(fluid) = &mut self.state.fluid {
-            fluid.target_rate[axis] = rate;
+    /// The rate of that value over the next interval, per second.
+    pub fn set_fluid_rate(&mut self, field: FluidField, (cell, axis): (usize, usize), rate: f64) {
+        if let Some(course) = self.state.fluid.as_mut().map(|fluid| fluid.given_mut(field)) {
+            course.target_rate[cell][axis] = rate;
         }
     }
 

@@ -107,7 +107,8 @@ impl Simulation {
             }
         }
         if let (Some(fluid), Some(given)) = (&mut self.state.fluid, &other.state.fluid) {
-            (fluid.target, fluid.target_rate) = (given.target, given.target_rate);
+            fluid.velocity.take_inputs(&given.velocity);
+            fluid.pressure_gradient.take_inputs(&given.pressure_gradient);
         }
         take_rates(&mut self.state, &other.state);
     }

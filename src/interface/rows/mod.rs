@@ -23,9 +23,9 @@ pub(super) use array::ArrayForm;
 use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
-use fluid::OF_FLUID;
-use grids::OF_GRIDS;
+use fluid::{OF_FLUID, OF_FLUID_CELLS};
 pub use grids::{Field, fields};
+use grids::{OF_GRIDS, OF_WHOLE_GRIDS};
 use heat::{OF_HEAT, OF_HEATED, OF_HEATED_NODES};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
@@ -79,6 +79,10 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
             .filter(move |row| (row.exists)(scene, at))
             .flat_map(move |row| (0..grid.shape.cells()).map(move |cell| (row, at.at_element(cell))))
     });
+    let cells_of_fluid = scene.fluid.iter().filter(|fluid| fluid.grid.is_some()).flat_map(|fluid| {
+        let cells = fluid.cells(&scene.grids);
+        OF_FLUID_CELLS.iter().flat_map(move |row| (0..cells).map(move |cell| (row, none.at_element(cell))))
+    });
     let exchange = each(&OF_INSERTIONS, scene.insertions.len())
         .chain(each(&OF_OUTLETS, scene.outlets.len()))
         .chain(each(&OF_METERS, scene.meters.len()))
@@ -87,7 +91,9 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         OF_CELLS.iter().chain(&OF_SCENE).chain(&OF_DOMAIN).chain(&OF_LOSSES).chain(&OF_HEAT).map(|row| (row, none));
     let places = of_boundaries
         .chain(each(&OF_FLUID, usize::from(scene.fluid.is_some())))
+        .chain(cells_of_fluid)
         .chain(each(&OF_REGIONS, scene.regions.len()))
+        .chain(each(&OF_WHOLE_GRIDS, scene.grids.len()))
         .chain(of_cells)
         .chain(exchange)
         .chain(of_scene)
@@ -106,9 +112,10 @@ pub(super) fn all() -> impl Iterator<Item = &'static Row> {
         .chain(&OF_NODES)
         .chain(&OF_HEATED_NODES)
         .chain(&OF_REGIONS)
+        .chain(&OF_WHOLE_GRIDS)
         .chain(&OF_GRIDS)
         .chain(exchange);
-    of_parts.chain(&OF_FLUID).chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
+    of_parts.chain(&OF_FLUID).chain(&OF_FLUID_CELLS).chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
 }
 
 impl Source {
@@ -135,9 +142,13 @@ impl Source {
             Each::Boundary | Each::Axis | Each::Node | Each::NodeScalar => {
                 &scene.boundaries[self.at.boundary.index()].name
             }
-            Each::Fluid | Each::FluidAxis => scene.fluid.as_ref().map_or("", |fluid| &fluid.name),
-            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[self.at.place()].name,
-            Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[self.at.place()].name,
+            Each::Fluid | Each::FluidAxis | Each::FluidCell | Each::FluidCellAxis => {
+                scene.fluid.as_ref().map_or("", |fluid| &fluid.name)
+            }
+            Each::Region | Each::RegionAxis | Each::Component | Each::RegionSet => &scene.regions[self.at.place()].name,
+            Each::GridSet | Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => {
+                &scene.grids[self.at.place()].name
+            }
             Each::Insertion => &scene.insertions[self.at.place()].name,
             Each::Outlet => &scene.outlets[self.at.place()].name,
             Each::Meter => &scene.meters[self.at.place()].name,

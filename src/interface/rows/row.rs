@@ -37,6 +37,10 @@ pub(in crate::interface) enum Each {
     Fluid,
     /// One for the fluid and each axis: `<fluid>.<name>.<axis>`.
     FluidAxis,
+    /// One for each cell of its grid: `<fluid>.cell[<number>].<name>`.
+    FluidCell,
+    /// One for each cell of its grid and axis: `<fluid>.cell[<number>].<name>.<axis>`.
+    FluidCellAxis,
     /// One for each node that moves by itself: `<boundary>.node[<number>].<name>`.
     NodeScalar,
     /// One for each insertion: `<insertion>.<name>`.
@@ -51,6 +55,10 @@ pub(in crate::interface) enum Each {
     RegionAxis,
     /// One for each region and component of a symmetric tensor: `<region>.<name>.<component>`.
     Component,
+    /// One for each region and set of particles: `<region>.<name>.<set>`.
+    RegionSet,
+    /// One for each grid and set of particles: `<grid>.<name>.<set>`.
+    GridSet,
     /// One for each cell of a grid: `<grid>.cell[<number>].<name>`.
     Cell,
     /// One for each cell of a grid and axis: `<grid>.cell[<number>].<name>.<axis>`.
@@ -75,7 +83,7 @@ impl Each {
     /// What tells the variables of a boundary, a region or a cell of a grid apart; one empty name where there is one.
     pub(super) fn names(self, scene: &Scene) -> Vec<&str> {
         match self {
-            Self::CellSet => scene.sets.iter().map(String::as_str).collect(),
+            Self::RegionSet | Self::GridSet | Self::CellSet => scene.sets.iter().map(String::as_str).collect(),
             _ => self.fixed_names().to_vec(),
         }
     }
@@ -85,6 +93,7 @@ impl Each {
         match self {
             Self::Node | Self::NodeScalar => Some("node"),
             Self::Cell | Self::CellAxis | Self::CellComponent | Self::CellSet => Some("cell"),
+            Self::FluidCell | Self::FluidCellAxis => Some("cell"),
             _ => None,
         }
     }
@@ -92,16 +101,20 @@ impl Each {
     /// The same where it is the same in every scene.
     fn fixed_names(self) -> &'static [&'static str] {
         match self {
-            Self::Axis | Self::Node | Self::FluidAxis | Self::RegionAxis | Self::CellAxis | Self::ProbeAxis => &AXES,
+            Self::Axis | Self::Node | Self::RegionAxis | Self::CellAxis | Self::ProbeAxis => &AXES,
+            Self::FluidAxis | Self::FluidCellAxis => &AXES,
             Self::Component | Self::CellComponent | Self::Strain => &STRAINS,
             Self::Tangent => &TANGENTS,
             Self::Shear => &[""; 6],
             Self::Scene
             | Self::Boundary
             | Self::Fluid
+            | Self::FluidCell
             | Self::NodeScalar
             | Self::Region
             | Self::Cell
+            | Self::RegionSet
+            | Self::GridSet
             | Self::CellSet
             | Self::Insertion
             | Self::Outlet

@@ -58,6 +58,12 @@ impl Grid {
             .then(|| self.number([0, 1, 2].map(|axis| self.along(axis, point[axis]))))
     }
 
+    /// Whether a point is in the box, which goes on where space repeats.
+    pub fn holds(&self, point: Vector) -> bool {
+        let ([lower, upper], point) = (self.corners, point.to_array());
+        (0..3).all(|axis| self.repeats[axis] || (lower[axis]..upper[axis]).contains(&point[axis]))
+    }
+
     /// Hands out each cell that has a part of a sphere, with the volume of the part \[m³\]. In sum the parts are the part of the sphere in
     /// the box, to rounding of the sphere's volume.
     pub fn parts_of_sphere(&self, centre: Vector, radius: f64, mut hand: impl FnMut(usize, f64)) {

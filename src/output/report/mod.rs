@@ -218,7 +218,8 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     );
     uses.extend(scene.fluid.iter().map(|fluid| {
         let motion = if fluid.velocity.is_driven() { "driven" } else { "given" };
-        format!("fluid {}: drag {}, its velocity {motion}", fluid.name, fluid.drag.name())
+        let place = fluid.grid.map(|grid| format!(" in the cells of grid {}", scene.grids[grid].name));
+        format!("fluid {}: drag {}, its velocity {motion}{}", fluid.name, fluid.drag.name(), place.unwrap_or_default())
     }));
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
     uses.extend(scene.grids.iter().map(grid));

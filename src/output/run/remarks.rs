@@ -2,6 +2,7 @@
 
 use super::summary::DeepestContact;
 use crate::base::geometry::lattice::STRAINS;
+use crate::base::number::Vector;
 use crate::engine::simulation::{COLLAPSING_COHESION, Simulation};
 use crate::engine::state::{Clock, Separated, TouchedThrough};
 use crate::interface::{Interface, MOST_COLUMNS};
@@ -42,6 +43,7 @@ pub fn remarks(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     remarks.extend(passed_through(scene));
     remarks.extend(cracks(scene));
     remarks.extend(cells(scene));
+    remarks.extend(dry(simulation));
     remarks.extend(cohesion(scene));
     remarks.extend(friction(scene));
     remarks.extend(falling(scene));
@@ -83,6 +85,22 @@ fn cells(scene: &Scene) -> Vec<String> {
         })
     };
     scene.grids.iter().filter_map(small).collect()
+}
+
+/// On particles outside of the box of a fluid.
+fn dry(simulation: &Simulation) -> Option<String> {
+    let (scene, state) = (simulation.scene(), simulation.state());
+    let fluid = scene.fluid.as_ref()?;
+    let grid = &scene.grids[fluid.grid?];
+    let all = scene.particles.len();
+    let slots = state.particles.slots();
+    let outside = slots.filter(|&slot| !grid.shape.holds(Vector::from(state.particles.position[slot]))).count();
+    (outside > 0).then(|| {
+        format!(
+            "[fluid.{}] grid: the centres of {outside} of {all} particles are outside of [grid.{}]; no fluid acts there",
+            fluid.name, grid.name
+        )
+    })
 }
 
 /// On a given step near the stable one.

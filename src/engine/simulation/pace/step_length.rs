@@ -1,5 +1,6 @@
 //! How long the next time steps are, by the stable one, by motion and by what the scene asks for.
 
+use crate::engine::fluid::Stream;
 use crate::engine::simulation::Simulation;
 use crate::engine::transfer;
 use crate::laws::contact::impact::LONGEST_PART;
@@ -54,7 +55,8 @@ impl Simulation {
 
     /// Largest acceleration that gravity, applied forces and the fluid give \[m/s²\].
     pub(super) fn acceleration_of_fields(&self) -> f64 {
-        let fluid = self.medium.as_ref().map_or(0.0, |medium| medium.stream(&self.state).acceleration(&self.state));
+        let stream = self.medium.as_ref().zip(self.state.fluid.as_ref());
+        let fluid = stream.map_or(0.0, |(medium, fluid)| Stream::of(medium, fluid).acceleration(&self.state));
         self.fields.acceleration(&self.state.particles) + fluid
     }
 

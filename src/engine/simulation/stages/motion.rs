@@ -32,7 +32,7 @@ impl Simulation {
 
     /// Books what the fluid does in the half kick that is about to begin the step.
     pub(super) fn book_fluid_first(&mut self, step: &mut TimeStep) {
-        if let Some(medium) = &self.medium {
+        if let Some(medium) = &mut self.medium {
             fluid::book(medium, &mut self.state, Kick::First, step.context);
         }
     }

@@ -142,7 +142,7 @@ const FORCES: &[Stage] = &[
         is_needed: Simulation::is_cell_loaded,
         reads: &[Places, Cell],
         writes: &[Motions, Cell],
-        run: |it, _| it.stream(),
+        run: |it, step| it.stream(step.context),
     },
     Stage {
         name: "contacts",

@@ -57,7 +57,9 @@ fn names(written: &RawTables, faults: &mut Faults) {
     let probes = written.probes.iter().map(|(name, _)| ("probe", name));
     let derived = written.derived.iter().map(|(name, _)| ("derived", name));
     let mut told: Vec<(&str, &String)> = boundaries.chain(regions).collect();
-    for (kind, name) in grids.chain(insertions).chain(outlets).chain(meters).chain(probes).chain(derived) {
+    let fluids = written.fluid.iter().map(|(name, ..)| ("fluid", name));
+    for (kind, name) in fluids.chain(grids).chain(insertions).chain(outlets).chain(meters).chain(probes).chain(derived)
+    {
         if let Some((other, _)) = told.iter().find(|(_, known)| *known == name) {
             let (found, expected) = (format!("that of [{other}.{name}]"), "a name of its own".to_owned());
             faults.add(&format!("{kind}.{name}"), "", Mistake::Unexpected { found, expected });

@@ -12,11 +12,18 @@ pub(super) fn fluid(written: &RawTables, source: &Source, faults: &mut Faults) -
     let (name, keys, drag) = written.fluid.as_ref()?;
     let table = format!("fluid.{name}");
     answer(keys, &table, faults);
+    let known: Vec<String> = written.grids.iter().map(|(name, _)| name.clone()).collect();
+    let grid = keys.grid.as_ref().map(|grid| known.iter().position(|name| name == grid).ok_or(grid));
+    if let Some(Err(grid)) = grid {
+        faults.add(&table, "grid", Mistake::UnknownName { found: grid.clone(), kind: "grid", known: known.clone() });
+    }
     Some(Fluid {
         name: name.clone(),
         density: keys.density.get(),
         viscosity: keys.viscosity.get(),
         velocity: velocity(keys, source, &table, faults),
+        grid: grid.and_then(Result::ok),
+        pressure: keys.pressure,
         porosity: keys.porosity.map(Porosity::get),
         drag: *drag,
         torque: keys.torque,
@@ -26,17 +33,8 @@ pub(super) fn fluid(written: &RawTables, source: &Source, faults: &mut Faults) -
 /// Answers keys for what is not modelled.
 fn answer(keys: &FluidTable, table: &str, faults: &mut Faults) {
     let answers = [
-        (
-            "lift",
-            keys.lift.is_some(),
-            "expected none, found one: lift is not modelled, as a fluid without a grid has no shear",
-        ),
+        ("lift", keys.lift.is_some(), "expected none, found one: lift is not modelled"),
         ("added_mass", keys.added_mass.is_some(), "expected none, found one: added mass is not modelled"),
-        (
-            "pressure",
-            keys.pressure.is_some(),
-            "expected none, found one: no pressure gradient is given, and that of the fluid at rest acts, -ρ g on each volume",
-        ),
     ];
     for (key, is_there, message) in answers {
         if is_there {

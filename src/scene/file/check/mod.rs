@@ -94,7 +94,7 @@ pub(super) fn scene(
         regions,
         grids,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
-        domain: written.domain.map(|domain| domain.corners.0),
+        domain: written.domain.map(|domain| domain.r#box.0),
         cell,
         insertions,
         outlets,

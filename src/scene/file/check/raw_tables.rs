@@ -357,8 +357,7 @@ fn boundaries(document: &Document, models: &Models, faults: &mut Faults) -> Name
 fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<(String, FluidTable, DragModel)> {
     let names = names(document, "fluid", faults);
     if names.len() > 1 {
-        let (found, expected) =
-            (names.join(" and "), "one fluid: each fills all space, so two would overlap".to_owned());
+        let (found, expected) = (names.join(" and "), "one fluid: two would overlap".to_owned());
         faults.add(&format!("fluid.{}", names[1]), "", Mistake::Unexpected { found, expected });
         return None;
     }

@@ -31,6 +31,7 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     if let Some(it) = &draft.fluid {
         at.name = format!("fluid.{}", it.name);
         fluid(it, &mut at);
+        at.points("grid", it.grid.unwrap_or(0), draft.grids.len().max(usize::from(it.grid.is_none())));
     }
     for insertion in &draft.insertions {
         at.name = format!("insertion.{}", insertion.name);

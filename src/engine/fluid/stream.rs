@@ -1,0 +1,125 @@
+//! The fluid as it flows now, and what it does to a sphere at a point.
+
+use super::{Flow, Medium, volume};
+use crate::base::number::Vector;
+use crate::engine::state::{Clumps, FluidState, Row, State};
+use crate::laws::region::{Grid, Weights};
+use std::f64::consts::PI;
+
+/// A fluid as it flows now.
+#[derive(Clone, Copy)]
+pub(crate) struct Stream<'a> {
+    /// What never changes.
+    medium: &'a Medium,
+    /// How it flows in the first cell: everywhere, without a grid.
+    first: Here<'a>,
+    /// Its grid, the velocity in each cell \[m/s\] with the porosity behind it, and the gradient of the pressure there \[Pa/m\], if one
+    /// is given.
+    cells: Option<(&'a Grid, &'a [Row], &'a [Row])>,
+}
+
+/// A fluid as it flows at a point.
+#[derive(Clone, Copy)]
+pub(crate) struct Here<'a> {
+    /// What never changes.
+    medium: &'a Medium,
+    /// Its velocity \[m/s\].
+    pub(super) velocity: Vector,
+    /// Part of the space that the particles leave to it.
+    porosity: f64,
+    /// Force of the pressure gradient on each volume \[N/m³\].
+    push: Vector,
+    /// Which cells it is of; none without a grid.
+    pub(super) weights: Option<Weights>,
+}
+
+/// The sum of rows by their weights.
+fn between(rows: &[Row], weights: &Weights) -> Row {
+    let mut sum = [0.0; 4];
+    for &(cell, weight) in weights {
+        let row = &rows[cell];
+        for (sum, part) in sum.iter_mut().zip(row) {
+            *sum += weight * part;
+        }
+    }
+    sum
+}
+
+impl<'a> Stream<'a> {
+    /// That of a fluid in a state.
+    pub(crate) fn of(medium: &'a Medium, fluid: &'a FluidState) -> Self {
+        let (flow, gradients) = (&fluid.velocity.now[..], &fluid.pressure_gradient.now[..]);
+        let [x, y, z, porosity] = flow[0];
+        let gradient = gradients.first().map_or(Vector::zero(), |row| Vector::from(*row));
+        let (velocity, push) = (Vector::new(x, y, z), medium.buoyancy - gradient);
+        let first = Here { medium, velocity, porosity, push, weights: None };
+        Self { medium, first, cells: medium.grid.as_ref().map(|grid| (grid, flow, gradients)) }
+    }
+
+    /// How it flows at a point \[m\]; none where there is no fluid.
+    #[inline(always)]
+    pub(crate) fn at(&self, point: Vector) -> Option<Here<'a>> {
+        let Some((grid, flow, gradients)) = self.cells else { return Some(self.first) };
+        if !grid.holds(point) {
+            return None;
+        }
+        let weights = grid.weights(point);
+        let [x, y, z, porosity] = between(flow, &weights);
+        let mut push = self.medium.buoyancy;
+        if !gradients.is_empty() {
+            push = push - Vector::from(between(gradients, &weights));
+        }
+        Some(Here { medium: self.medium, velocity: Vector::new(x, y, z), porosity, push, weights: Some(weights) })
+    }
+
+    /// Whether it brakes rotation.
+    pub(super) fn has_torque(&self) -> bool {
+        self.medium.torque
+    }
+
+    /// Diameter of the sphere of the volume of a clump \[m\].
+    pub(crate) fn diameter(&self, clumps: &Clumps, clump: usize) -> f64 {
+        self.medium.diameter(clumps, clump)
+    }
+
+    /// The largest acceleration that it gives to what forces move in a state \[m/s²\].
+    pub(crate) fn acceleration(&self, state: &State) -> f64 {
+        let State { particles, clumps, .. } = state;
+        let of = |place: Row, velocity: Row, drag: f64, diameter: f64| {
+            let Some(here) = self.at(place.into()) else { return 0.0 };
+            let drag = (here.velocity - Vector::from(velocity)) * drag;
+            (drag.length() + here.push(diameter).length()) / velocity[3]
+        };
+        let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
+        let of_particles = free.map(|slot| {
+            let place = particles.position[slot];
+            of(place, particles.velocity[slot], particles.force[slot][3], 2.0 * place[3])
+        });
+        let of_clumps = (0..clumps.len()).map(|it| {
+            of(clumps.position[it], clumps.velocity[it], clumps.force[it][3], self.medium.diameter(clumps, it))
+        });
+        of_particles.chain(of_clumps).fold(0.0, f64::max)
+    }
+}
+
+impl Here<'_> {
+    /// Force of the pressure gradient on a sphere \[N\].
+    #[inline(always)]
+    pub(super) fn push(&self, diameter: f64) -> Vector {
+        self.push * volume(diameter)
+    }
+
+    /// What it does to a sphere of this diameter \[m\] with this velocity \[m/s\] and angular velocity \[rad/s\], on which another force acts
+    /// \[N\]; forces move its mass \[kg\] in half kicks of this length \[s\], or it is held where the length is 0.
+    pub(crate) fn on(&self, diameter: f64, motion: [Vector; 2], (mass, other): (f64, Vector), half: f64) -> Flow {
+        let Self { medium, velocity, porosity, .. } = *self;
+        let (slip, push) = (velocity - motion[0], self.push(diameter));
+        let mut drag = medium.drag(diameter, porosity, slip);
+        if half > 0.0 {
+            let gained = (other + push + slip * drag) * (half / (mass + half * drag));
+            drag = medium.drag(diameter, porosity, slip - gained);
+        }
+        let turning = if medium.torque { PI * medium.viscosity * (diameter * diameter * diameter) } else { 0.0 };
+        Flow { force: slip * drag + push, drag, torque: motion[1] * -turning, turning }
+    }
+}
