@@ -46,10 +46,11 @@ class Response:
 
 
 class FluidInterface:
-    """The cells of ``[fluid.<name>] grid = ".."`` as a side of `couple`: velocities and pressure gradients in, drag out.
+    """The fluid of a unit, cell by cell, as a side of `couple`: velocities and pressure gradients in, drag out.
 
-    ``axes`` are those along which the partner moves the fluid. Partners are a `Column` or a `cograin.plane_flow.PlaneFlow`; the
-    exchange is `QuasiNewton`.
+    The scene has ``[fluid.<name>]`` with a ``grid``, ``velocity = "driven"`` and ``pressure = "total"``. ``axes`` are
+    those along which the partner moves the fluid: a `Column`, or a `cograin.plane_flow.PlaneFlow`. The exchange is
+    `QuasiNewton`.
     """
 
     keeps_itself = True
@@ -159,13 +160,14 @@ Inflow = float | Callable[[float], float]
 class Column:
     """An incompressible fluid in a column of cells, one above the other, as a partner of a `FluidInterface`.
 
-    Continuity gives the velocity u: ε u + the solid flux is ``inflow`` \\[m/s\\] in every cell, the superficial velocity
-    of what flows in below (0: a closed bottom). Momentum gives the pressure gradient,
+    Continuity gives the velocity u: ε u + the solid flux is ``inflow`` \\[m/s\\] in every cell, the superficial
+    velocity of what flows in below (0: a closed bottom). Momentum gives the pressure gradient,
 
         ρ [∂(ε u)/∂t + ∂(ε u u)/∂z] = −∂p/∂z + (drag + pressure force of the particles)/V + ε ρ g,
 
     with drag and that force as straight lines in u and ∂p/∂z, by the particles' own coefficients. ``density`` ρ
-    \\[kg/m³\\] and ``gravity`` g along the column \\[m/s²\\] are those of the scene; p contains that of the fluid at rest.
+    \\[kg/m³\\] and ``gravity`` g along the column \\[m/s²\\] are those of the scene; p contains that of the fluid at
+    rest.
 
     A step is implicit. What the fluid keeps is exact whatever is left between both sides: the volume by what the
     particles take up, the momentum by the forces that they found.
@@ -183,10 +185,11 @@ class Column:
         self.displacement: Vector = vector(side.displacement)
         #: Porosity of the cells.
         self.porosity: Vector = response.porosity
-        #: Velocity of the fluid between the particles \[m/s\].
+        #: Velocity of the fluid between the particles \\[m/s\\].
         self.velocity: Vector = response.velocity[:, 0]
-        #: Pressure gradient of the last step \[Pa/m\].
+        #: Pressure gradient of the last step \\[Pa/m\\].
         self.pressure_gradient: Vector = response.pressure_gradient[:, 0]
+
     @property
     def momentum(self) -> float:
         """Momentum of the fluid along the column \\[N s\\]."""
@@ -233,7 +236,7 @@ class Column:
         raise ValueError("Column: has no compliance; take QuasiNewton")
 
     def weights(self, step: Step) -> Vector:
-        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: a gradient by what it does to the fluid."""
+        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: these by what they do to the fluid."""
         cells = len(self.velocity)
         return np.concatenate([np.ones(cells), np.full(cells, self.density / step.length)])
 

@@ -1,4 +1,4 @@
-"""A slow flow in a plane by finite elements, as a partner of the fluid of a unit: needs scikit-fem (``cograin[elements]``)."""
+"""A slow flow in a plane by finite elements, as a partner of the fluid of a unit: needs ``cograin[elements]``."""
 
 from __future__ import annotations
 
@@ -99,7 +99,11 @@ class PlaneFlow:
         weight = porosity[:, None] * (self.density * self.gravity)
         inertia = self.density / step.length
         return self._elements.solved(
-            (inertia + resisted, self.viscosity, porosity), still + other + weight, response.solid_flux, inertia, self._state
+            (inertia + resisted, self.viscosity, porosity),
+            still + other + weight,
+            response.solid_flux,
+            inertia,
+            self._state,
         )
 
     def compliance(self, step: Step) -> Matrix:
@@ -107,7 +111,7 @@ class PlaneFlow:
         raise ValueError("PlaneFlow: has no compliance; take QuasiNewton")
 
     def weights(self, step: Step) -> Vector:
-        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: a gradient by what it does to the fluid."""
+        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: these by what they do to the fluid."""
         half = len(self.displacement) // 2
         return np.concatenate([np.ones(half), np.full(half, self.density / step.length)])
 
