@@ -76,8 +76,9 @@ class Surface:
 class Flow:
     """The fluid of a unit as a mesh of preCICE: a vertex for each cell of its grid.
 
-    The unit reads ``velocity`` \\[m/s\\] and ``pressure_gradient`` \\[Pa/m\\]. It writes ``drag`` \\[N\\] and ``porosity``,
-    and where names are given ``drag_coefficient`` \\[N s/m\\], ``pressure_force`` \\[N\\] and ``solid_flux`` \\[m/s\\].
+    The unit reads ``velocity`` \\[m/s\\] and ``pressure_gradient`` \\[Pa/m\\]. It writes ``drag`` \\[N\\] and
+    ``porosity``, and where names are given ``drag_coefficient`` \\[N s/m\\], ``pressure_force`` \\[N\\] and
+    ``solid_flux`` \\[m/s\\].
     They are means of a window, but for velocity and porosity, which are those at its end.
     """
 
