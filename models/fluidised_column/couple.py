@@ -11,7 +11,7 @@ from cograin.results import Table
 
 HERE = Path(__file__).resolve().parent
 DENSITY, VISCOSITY, SOLID, DIAMETER, GRAVITY = 1.2, 1.8e-5, 2500.0, 1e-3, 9.81
-AREA = 36e-6  # of the column [m²]
+AREA = 25e-6  # of the column [m²]
 
 
 def ergun(velocity, porosity):
@@ -84,9 +84,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="target/release/cograin")
     parser.add_argument("--output", type=Path, default=Path("out/fluidised_column"))
-    parser.add_argument("--end", type=float, default=1.0, help="[s]")
-    parser.add_argument("--interval", type=float, default=1e-3, help="communication step [s]")
-    parser.add_argument("--highest", type=float, default=1.2, help="velocity at the end of a whole second [m/s]")
+    parser.add_argument("--end", type=float, default=0.5, help="[s]")
+    parser.add_argument("--interval", type=float, default=2e-3, help="communication step [s]")
+    parser.add_argument("--rate", type=float, default=2.4, help="growth of the velocity [m/s²]")
     parser.add_argument("--no-picture", action="store_true")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
@@ -96,7 +96,7 @@ def main():
         shutil.rmtree(options.output / "frames", ignore_errors=True)
         frames = {"parameters": {"run.frames": str(options.output / "frames")}}
     with Unit(path, **frames) as unit:
-        table, porosities = course(unit, options.interval, options.end, options.highest * options.end)
+        table, porosities = course(unit, options.interval, options.end, options.rate * options.end)
     rows = np.array([table[name] for name in table]).T
     np.savetxt(options.output / "couple.csv", rows, delimiter=",", header=",".join(table), comments="", fmt="%.17g")
     report(table)

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 
 HERE = Path(__file__).resolve().parent
 DENSITY, VISCOSITY, SOLID, DIAMETER, GRAVITY = 1000.0, 0.05, 2500.0, 1e-3, 9.81
-COUNTS = [200, 490, 980, 1470]
+COUNTS = [200, 490, 980, 1300]
 STEADY = 0.03  # when the speeds are taken, long after the beads were let go [s]
 
 
@@ -70,13 +70,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="target/release/cograin")
     parser.add_argument("--output", type=Path, default=Path("out/settling"))
-    parser.add_argument("--end", type=float, default=0.6, help="of the box that settles [s]")
-    parser.add_argument("--interval", type=float, default=1e-3, help="communication step [s]")
+    parser.add_argument("--counts", type=int, nargs="*", default=COUNTS, help="of beads in suspensions that are timed")
+    parser.add_argument("--end", type=float, default=0.8, help="of the box that settles [s]")
+    parser.add_argument("--interval", type=float, default=2e-3, help="communication step [s]")
     parser.add_argument("--no-picture", action="store_true")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)
     program, found = Program(options.program), []
-    for count in COUNTS:
+    for count in options.counts:
         with Unit(export(program, options.output, count)) as unit:
             table, _ = course(unit, options.interval, STEADY)
         half = table["time"] > 0.5 * STEADY

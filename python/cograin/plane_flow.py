@@ -94,13 +94,11 @@ class PlaneFlow:
         volume, porosity = self._elements.volume, response.porosity
         resisted = 0.5 * response.coefficient / (volume * porosity)
         still = response.drag_at(0.0 * response.velocity) / volume
-        # What the weights of the particles leave between their force of the pressure and (1 − ε) V ∂p.
-        other = response.pressure_force_at(0.0 * response.velocity, volume) / volume
         weight = porosity[:, None] * (self.density * self.gravity)
         inertia = self.density / step.length
         return self._elements.solved(
             (inertia + resisted, self.viscosity, porosity),
-            still + other + weight,
+            still + weight,
             response.solid_flux,
             inertia,
             self._state,

@@ -10,6 +10,7 @@ from cograin.fluid import Column, FluidInterface
 from cograin.plane_flow import PlaneFlow
 from cograin.precice import Flow, participate
 
+# The box of the fluid reaches a millimetre beyond floor and lid, so that what presses into them is inside.
 GRAVITY, SIDE, HEIGHT, CELLS = 9.81, 5e-3, 0.032, 8
 AREA = SIDE**2
 
@@ -32,15 +33,15 @@ edges = [[{SIDE}, 0.0, 0.0], [0.0, {SIDE}, 0.0], [0.0, 0.0, {HEIGHT}]]
 periodic = ["x", "y"]
 [particles.beads]
 material = "glass"
-packing = {{ box = [[0.0, 0.0, 0.0], [{SIDE}, {SIDE}, 0.015]], solid_fraction = 0.5, radius = 0.5e-3 }}
+packing = {{ box = [[0.0, 0.0, 0.0], [{SIDE}, {SIDE}, 0.011]], solid_fraction = 0.5, radius = 0.5e-3 }}
 [boundary.floor]
 plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
 material = "glass"
 [boundary.lid]
-plane = {{ point = [0.0, 0.0, {HEIGHT}], normal = [0.0, 0.0, -1.0] }}
+plane = {{ point = [0.0, 0.0, {HEIGHT - 2e-3}], normal = [0.0, 0.0, -1.0] }}
 material = "glass"
 [grid.column]
-box = [[0.0, 0.0, 0.0], [{SIDE}, {SIDE}, {HEIGHT}]]
+box = [[0.0, 0.0, -1.0e-3], [{SIDE}, {SIDE}, {HEIGHT - 1e-3}]]
 counts = [1, 1, {CELLS}]
 outputs = ["density", "velocity"]
 [fluid.fluid]
@@ -85,7 +86,7 @@ def test_grains_and_fluid_and_walls_keep_momentum_to_rounding(opened, text, dens
     column, coupling = coupled(unit, density, inflow, interval)
     weight, solid = mass(unit) * GRAVITY, (1.0 - column.porosity).sum()
     before, held = column.porosity, momentum(unit) + column.momentum
-    for _ in coupling.steps(interval * 12):
+    for _ in coupling.steps(interval * 6):
         fluid = 0.5 * (before + column.porosity).sum() * column.volume * density * GRAVITY
         walls = unit["floor.mean_force.z"] + unit["lid.mean_force.z"]
         through = density * AREA * inflow * (column.velocity[0] - column.velocity[-1])
@@ -102,14 +103,14 @@ def test_a_run_that_was_broken_off_goes_on_with_the_same_bits(opened, tmp_path, 
     def run(unit, **named):
         side = FluidInterface(unit, "fluid")
         column = Column(side, 1000.0, gravity=-GRAVITY, inflow=0.01)
-        return couple(side, column, QuasiNewton(), step=2e-3, end=12e-3, **named)
+        return couple(side, column, QuasiNewton(), step=2e-3, end=8e-3, **named)
 
     def broken(*_):
         raise KeyboardInterrupt
 
     whole, file = run(opened(WET)), tmp_path / "run.checkpoint"
     with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
-        steps = iter([None] * 3)
+        steps = iter([None] * 2)
         patched.setattr(cograin.coupling.Progress, "step", lambda *_: next(steps, broken) and broken())
         run(opened(WET), checkpoint=file)
     resumed = run(opened(WET), checkpoint=file)
@@ -148,16 +149,14 @@ def test_what_flows_through_a_block_in_a_plane_is_what_drag_and_pressure_balance
     side = FluidInterface(unit, "water", "xz")
     walls = {"z_low": (0.005, 0.0), "z_high": (0.005, 0.0)}  # they go along, so that the flow is the same everywhere
     plane = PlaneFlow(side, 1000.0, 1e-3, gravity=(0.0, -GRAVITY), velocity={"x_low": (0.005, 0.0), **walls})
-    record = couple(side, plane, QuasiNewton(), step=0.01, end=0.1)
+    record = couple(side, plane, QuasiNewton(), step=0.01, end=0.05)
     assert not record.unconverged and record["evaluations"].max() < 12
     assert np.abs(plane.flux - [0.005, 0.0]).max() < 1e-6
-    # Drag of the block over ε is what the pressure takes of it, and the hand holds both.
+    # In each cell the gradient holds what the block does, and the hand holds all of it.
     response = side.response(side.force("mean"))
-    drag, porosity = response.drag[:, 0], response.porosity
-    volume = side.cells.volumes[0]
-    gradient = response.pressure_gradient[:, 0]
-    full = porosity < 0.5
-    assert drag[full] == pytest.approx(porosity[full] * gradient[full] * volume, rel=1e-6)
+    forces = response.drag[:, 0] + response.pressure_force[:, 0]
+    gradient = response.pressure_gradient[:, 0] * side.cells.volumes[0]
+    assert np.abs(gradient - forces).max() < 1e-4 * np.abs(forces).max()
     corners, pressure = plane.pressure
     ends = [pressure[corners[:, 0] == place].mean() for place in (0.0, 0.05)]
     assert (ends[0] - ends[1]) * 8e-5 == pytest.approx(unit["hand.mean_force.x"], rel=1e-4)
