@@ -245,6 +245,7 @@ fn a_run_from_a_forged_checkpoint_ends_with_whole_books_or_in_words() {
             scene: &scene,
             scene_name: "scene.toml",
             folder: &folder.join("out"),
+            end: None,
             start: &start,
             earlier_results: EarlierResults::Replace,
             inputs: None,

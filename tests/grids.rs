@@ -285,3 +285,51 @@ fn a_grid_without_outputs_is_there_for_others() {
     let centre: Vector = scene.grids[0].shape.centre(7);
     assert_eq!(centre, [0.75; 3]);
 }
+
+/// Two sets in two halves of a box: 4 and 0 on the left, 1 and 3 on the right.
+const HALVES: &str = r#"
+[run]
+step = 1e-6
+[material.glass]
+density = 2500.0
+[particles.sand]
+material = "glass"
+list = [
+    { position = [0.001, 0.002, 0.002], radius = 0.0005 }, { position = [0.003, 0.002, 0.002], radius = 0.0005 },
+    { position = [0.001, 0.006, 0.002], radius = 0.0005 }, { position = [0.003, 0.006, 0.002], radius = 0.0005 },
+    { position = [0.011, 0.002, 0.002], radius = 0.0005 },
+]
+[particles.salt]
+material = "glass"
+list = [
+    { position = [0.013, 0.002, 0.002], radius = 0.0005 }, { position = [0.011, 0.006, 0.002], radius = 0.0005 },
+    { position = [0.013, 0.006, 0.002], radius = 0.0005 },
+]
+[region.right]
+box = [[0.008, 0.0, 0.0], [0.016, 0.008, 0.008]]
+[grid.bed]
+box = [[0.0, 0.0, 0.0], [0.016, 0.008, 0.008]]
+counts = [2, 1, 1]
+outputs = ["mixing_index"]
+"#;
+
+#[test]
+fn a_grid_tells_how_far_sets_are_mixed_and_a_region_how_many_it_has_of_each() {
+    let simulation = start(HALVES);
+    // p = 5/8, each half 3/8 off it: S²/S₀² = 9/15; Sᵣ²/S₀² = 2/8.
+    let expected = (1.0 - 9.0 / 15.0) / (1.0 - 2.0 / 8.0);
+    for set in ["sand", "salt"] {
+        let found = value(&simulation, &format!("bed.mixing_index.{set}"));
+        assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+    }
+    let counts =
+        ["count", "count_by_set.sand", "count_by_set.salt"].map(|name| value(&simulation, &format!("right.{name}")));
+    assert_eq!(counts, [4.0, 1.0, 3.0]);
+    let interface = Interface::of(simulation.scene());
+    let index = interface.find("bed.mixing_index.salt").expect("it is there");
+    assert!(
+        interface.recorded().any(|(recorded, _)| recorded == index),
+        "one number of a grid is a column of histories"
+    );
+    assert!(interface::fields(&simulation, 0).is_empty(), "it is no field");
+}

@@ -134,6 +134,9 @@ struct RunArguments {
     /// Continue from a checkpoint: this one, or the last one in the folder of the results
     #[arg(long, value_name = "CHECKPOINT", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
+    /// End at this time [s] instead of the scene's; with --resume a run goes on beyond its end
+    #[arg(long, value_name = "TIME", value_parser = positive)]
+    end: Option<f64>,
     /// Replace the results of an earlier run in that folder
     #[arg(long)]
     overwrite: bool,
@@ -373,6 +376,12 @@ fn variables(models: &Models, arguments: &VariablesArguments, quiet: bool) -> Re
     if arguments.json { say_as_it_is(list.to_json().as_bytes()) } else { say(list) }
 }
 
+/// A number above 0.
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| "expected a number above 0".to_owned())
+}
+
 /// `cograin run`
 fn run(models: &Models, arguments: &RunArguments, quiet: bool) -> Result<(), Ending> {
     let (scene, mut source) = read_to_run(models, &arguments.scene, quiet)?;
@@ -396,6 +405,7 @@ fn run(models: &Models, arguments: &RunArguments, quiet: bool) -> Result<(), End
         scene_name: &source.name,
         folder: &arguments.output,
         start: &start,
+        end: arguments.end,
         earlier_results: if arguments.overwrite { EarlierResults::Replace } else { EarlierResults::Keep },
         inputs: arguments.inputs.as_deref(),
         stop: &stop,

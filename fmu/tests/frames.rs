@@ -81,6 +81,7 @@ fn of_a_run(source: &Source, name: &str) -> BTreeMap<String, Vec<u8>> {
         scene: &scene,
         scene_name: "scene.toml",
         folder: &place.0,
+        end: None,
         start: &Start::Scene,
         earlier_results: EarlierResults::Keep,
         inputs: None,

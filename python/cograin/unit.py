@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ctypes
 import logging
-import tempfile
 import time
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
@@ -21,6 +20,7 @@ from cograin import interrupts
 from cograin.cells import Cells
 from cograin.identity import of_file
 from cograin.nodes import Nodes
+from cograin.unpacked import unpacked
 from cograin.vector import Matrix, Vector
 
 _log = logging.getLogger("cograin")
@@ -99,13 +99,12 @@ class Unit:
         self._messages: list[str] = []
         self._ended = False  # whether an interrupt was to end the present step
         self._states = 0  # saved ones that it may return to
-        self._folder = tempfile.TemporaryDirectory(prefix="cograin-")
-        #: Where it is unpacked.
-        self.folder = Path(self._folder.name)
-        fmpy.extract(str(path), unzipdir=self._folder.name)
+        self._files = unpacked(self.path)
+        #: Where it is unpacked, for all instances of this file.
+        self.folder = self._files.folder
         self.slave = fmpy.fmi2.FMU2Slave(
             guid=self.description.guid,
-            unzipDirectory=self._folder.name,
+            unzipDirectory=str(self.folder),
             modelIdentifier=self.description.coSimulation.modelIdentifier,
             instanceName=self.name,
         )
@@ -479,7 +478,6 @@ class Unit:
         except FMICallException:
             _log.info("%s: could not be terminated", self.name)
         self.slave.freeInstance()
-        self._folder.cleanup()
 
     def __enter__(self) -> Self:
         return self

@@ -1,5 +1,8 @@
 """A unit by names: values, states, exact times, refusals in words."""
 
+import gc
+import os
+import shutil
 import subprocess
 import sys
 
@@ -8,6 +11,7 @@ import pytest
 from conftest import DROP
 
 from cograin import StepDiscarded, Unit, UnitError
+from cograin.unpacked import KEPT
 
 
 def swing(unit, first, last):
@@ -129,3 +133,50 @@ def test_a_closed_unit_may_be_closed_again(piston):
     with Unit(piston) as unit:
         unit.step(1e-3)
     unit.close()
+
+
+def test_instances_of_one_file_share_its_library_and_move_by_themselves(packaged):
+    path = packaged(DROP)
+    with Unit(path) as one, Unit(path) as other:
+        assert one.folder == other.folder and one.slave.dll._handle == other.slave.dll._handle
+        for _ in range(3):
+            one.step(1e-3)
+        assert other["ball.displacement.z"] == 0.0 > one["ball.displacement.z"]
+        other.step(3e-3)
+        assert other["ball.displacement.z"] == pytest.approx(one["ball.displacement.z"], rel=1e-12)
+    with Unit(path) as later:
+        assert later.folder == one.folder and later["ball.displacement.z"] == 0.0
+
+
+def test_a_file_that_is_written_anew_is_another_unit(packaged, tmp_path):
+    path = tmp_path / "one.fmu"
+    shutil.copy(packaged(DROP), path)
+    with Unit(path) as old:
+        shutil.copy(packaged(DROP.replace("0.06", "0.07")), path)
+        with Unit(path) as new:
+            assert new.folder != old.folder and new.description.guid != old.description.guid
+            old.step(1e-3)
+            new.step(1e-3)
+
+
+def test_what_was_unpacked_goes_when_many_others_are_open_and_when_the_process_ends(packaged, tmp_path):
+    first = Unit(packaged(DROP))
+    folder = first.folder
+    first.close()
+    for count in range(KEPT):
+        path = tmp_path / f"{count}.fmu"
+        shutil.copy(packaged(DROP), path)
+        Unit(path).close()
+    assert folder.exists(), "while somebody has the unit"
+    del first
+    gc.collect()
+    assert not folder.exists()
+    script = (
+        "import sys, cograin; unit = cograin.Unit(sys.argv[1]); unit.close(); print(unit.folder.exists(), unit.folder)"
+    )
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    done = subprocess.run(
+        [sys.executable, "-c", script, packaged(DROP)], capture_output=True, text=True, check=True, env=environment
+    )
+    was, name = done.stdout.split()
+    assert was == "True" and not os.path.exists(name)

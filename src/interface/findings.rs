@@ -33,6 +33,8 @@ pub struct Findings {
     carried: OnceCell<Vec<Tensor>>,
     /// Contacts of the particles in each region.
     coordination: OnceCell<Vec<Coordination>>,
+    /// Particles whose centre is in each region.
+    counts: OnceCell<Vec<Count>>,
     /// What is in the cells of each grid.
     grids: OnceCell<Vec<OfCells>>,
     /// Stress of the cell \[Pa\].
@@ -96,6 +98,11 @@ impl Findings {
         let carried = &self.carried.get_or_init(|| averages::carried(simulation))[region];
         let volume = simulation.scene().regions[region].shape.volume();
         self.content(simulation, region).stress(carried, volume, [row, column])
+    }
+
+    /// Particles whose centre is in a region.
+    pub(super) fn counts(&self, simulation: &Simulation, region: usize) -> &Count {
+        &self.counts.get_or_init(|| averages::counts_of_regions(simulation))[region]
     }
 
     /// What is in the cells of a grid.

@@ -1,27 +1,30 @@
 //! What a scene says of itself.
 
+use crate::base::document::keys;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 
-/// `[about]`: what the unit tells of its model; nothing of it is computed with.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct About {
-    /// One sentence: what it is.
-    #[serde(deserialize_with = "line")]
-    pub description: Option<String>,
-    /// Who made it.
-    #[serde(deserialize_with = "line")]
-    pub author: Option<String>,
-    /// Its version.
-    #[serde(deserialize_with = "line")]
-    pub version: Option<String>,
-    /// Under which licence.
-    #[serde(deserialize_with = "line")]
-    pub license: Option<String>,
-    /// Whose it is.
-    #[serde(deserialize_with = "line")]
-    pub copyright: Option<String>,
+keys! {
+    /// `[about]`: what the unit tells of its model; nothing of it is computed with.
+    #[derive(Clone, Debug, Default, PartialEq, Eq)]
+    #[serde(default)]
+    pub struct About {
+        /// One line of text: what it is.
+        #[serde(deserialize_with = "line")]
+        pub description: Option<String> = "none",
+        /// Who made it.
+        #[serde(deserialize_with = "line")]
+        pub author: Option<String> = "none",
+        /// Its version.
+        #[serde(deserialize_with = "line")]
+        pub version: Option<String> = "none",
+        /// Under which licence.
+        #[serde(deserialize_with = "line")]
+        pub license: Option<String> = "none",
+        /// Whose it is.
+        #[serde(deserialize_with = "line")]
+        pub copyright: Option<String> = "none",
+    }
 }
 
 /// One line of text, where one is given. The unit's description, an XML file, can hold no control characters.

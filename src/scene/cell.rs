@@ -1,6 +1,6 @@
 //! `[cell]`: a parallelepiped that repeats, and how it is deformed.
 
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::geometry::Lattice;
 use crate::base::geometry::lattice::{STRAIN_PLACES, STRAINS, brought_back};
 use crate::base::number::Vector;
@@ -132,36 +132,41 @@ struct ServoKeys {
     max_rate: Positive,
 }
 
-/// `motion` of the cell; a component not named is fixed.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct MotionKeys {
-    /// Components that stay.
-    #[serde(default)]
-    fixed: Vec<Component>,
-    /// Components that follow an input.
-    #[serde(default)]
-    driven: Vec<Component>,
-    /// Components that reach a stress.
-    #[serde(default)]
-    servo: BTreeMap<Component, ServoKeys>,
-    /// A shear without end.
-    shear: Option<Shear>,
+keys! {
+    /// `motion` of the cell; a component not named is fixed.
+    #[derive(Clone, Debug, Default)]
+    pub(in crate::scene) struct MotionKeys {
+        /// Components that stay.
+        #[serde(default)]
+        fixed: Vec<Component> = "all others",
+        /// Components that follow the inputs `cell.strain.<component>`.
+        #[serde(default)]
+        driven: Vec<Component> = "none",
+        /// `{ zz = { stress = -1e5, max_rate = 0.1 } }`: the strain moves, at most at this rate \[1/s\], until the stress \[Pa\],
+        /// tension positive, is that of the input `cell.target_stress.zz`, which starts with `stress` (0); `cell.servo_error.zz` is
+        /// the error.
+        #[serde(default)]
+        servo: BTreeMap<Component, ServoKeys> = "none",
+        /// `"xy"`, `"xz"` or `"yz"`: this shear follows the input `cell.shear`, as far as you like.
+        shear: Option<Shear> = "none",
+    }
 }
 
-/// `[cell]`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene) struct CellKeys {
-    /// The edges \[m\]; absent: those of the box that a file of particles says.
-    edges: Option<Vec<Triple>>,
-    /// The corner from which they go out \[m\]; absent: that of the file whose edges they are, or 0.
-    origin: Option<Triple>,
-    /// Along which it repeats; absent: all.
-    periodic: Option<Vec<Edge>>,
-    /// How it is deformed.
-    #[serde(default)]
-    motion: MotionKeys,
+keys! {
+    /// `[cell]`
+    #[derive(Clone, Debug)]
+    pub(in crate::scene) struct CellKeys {
+        /// `[[ax, 0, 0], [bx, by, 0], [cx, cy, cz]]` \[m\], as LAMMPS writes tilted boxes; `ax`, `by`, `cz` above 0; faces no nearer to
+        /// each other than the largest radius.
+        edges: Option<Vec<Triple>> = "those of a file of particles",
+        /// The corner from which they go out \[m\]; it stays where it is.
+        origin: Option<Triple> = "that of the file, or `[0, 0, 0]`",
+        /// Edges that repeat, of `"x"`, `"y"`, `"z"`; along the others it only says the volume.
+        periodic: Option<Vec<Edge>> = "all",
+        /// What the strains `xx`, `yy`, `zz`, `xy`, `xz`, `yz` do, see below.
+        #[serde(default)]
+        motion: MotionKeys = "all fixed",
+    }
 }
 
 impl CellKeys {

@@ -1,6 +1,6 @@
 //! Grids: boxes divided into cells, each of which is looked at.
 
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::quantity::{Corners, Counts};
 use crate::laws::region;
 use crate::scene::{Cell, SceneDraft};
@@ -40,25 +40,27 @@ pub enum GridOutput {
     Count,
     /// Those of each set.
     CountBySet,
+    /// How far each set is mixed with the others, a number of the whole grid.
+    MixingIndex,
 }
 
-/// `[grid.<name>]` as a scene writes it.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct GridKeys {
-    /// Corners of the box \[m\].
-    #[serde(rename = "box")]
-    corners: Corners,
-    /// Cells along each axis.
-    counts: Counts,
-    /// What is told of each cell; the porosity where nothing is said.
-    outputs: Option<Vec<GridOutput>>,
+keys! {
+    /// `[grid.<name>]` as a scene writes it.
+    #[derive(Clone, Debug)]
+    pub(crate) struct GridKeys {
+        /// Lower and upper corner \[m\].
+        r#box: Corners = "required",
+        /// `[nx, ny, nz]`: cells along each axis, each ≥ 1.
+        counts: Counts = "required",
+        /// Any of the words below; `[]`: none.
+        outputs: Option<Vec<GridOutput>> = "`[\"porosity\"]`",
+    }
 }
 
 impl Grid {
     /// The grid that is written so.
     pub(crate) fn of(name: &str, keys: &GridKeys) -> Self {
-        let (Corners(corners), Counts(counts)) = (keys.corners, keys.counts);
+        let (Corners(corners), Counts(counts)) = (keys.r#box, keys.counts);
         let shape = region::Grid { corners, counts, repeats: [false; 3] };
         let outputs = keys.outputs.clone().unwrap_or_else(|| vec![GridOutput::Porosity]);
         Self { name: name.to_owned(), shape, outputs }
@@ -93,6 +95,10 @@ impl Grid {
             let found_twice = format!("{:?} twice", self.outputs[place].name());
             found.push(refused("outputs", found_twice, "each output once".to_owned()));
         }
+        if self.tells(GridOutput::MixingIndex) && sets < 2 {
+            let expected = "two sets of particles or more, between which it is a measure".to_owned();
+            found.push(refused("outputs", format!("\"mixing_index\" in a scene of {sets} set"), expected));
+        }
         if self.tells(GridOutput::Temperature) && !has_heat {
             let expected = "a contact law with [contact.<law>.heat] beside it".to_owned();
             found.push(refused("outputs", "\"temperature\" in a scene where no heat flows".to_owned(), expected));
@@ -113,6 +119,7 @@ impl GridOutput {
             Self::Temperature => "temperature",
             Self::Count => "count",
             Self::CountBySet => "count_by_set",
+            Self::MixingIndex => "mixing_index",
         }
     }
 
@@ -122,6 +129,7 @@ impl GridOutput {
             Self::Velocity => 3,
             Self::Stress => 6,
             Self::CountBySet => sets as u64,
+            Self::MixingIndex => 0,
             Self::Porosity | Self::Density | Self::GranularTemperature | Self::Temperature | Self::Count => 1,
         }
     }

@@ -107,6 +107,7 @@ impl SceneDraft {
         bonds
             || self.heat.warms()
             || !self.heat_sources.is_empty()
+            || self.fluid.as_ref().is_some_and(|fluid| fluid.heat.is_some())
             || self.contacts.iter().any(|law| law.heat.is_some())
     }
 
@@ -149,11 +150,13 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<Objection> {
 /// Temperatures where none flows.
 fn without_heat(scene: &SceneDraft) -> Vec<Objection> {
     let boundaries = scene.boundaries.iter().filter(|it| it.temperature != BoundaryTemperature::None);
-    let what = || Mistake::InvalidCombination {
+    let what = || {
+        Mistake::InvalidCombination {
         what: "nothing conducts in this scene".to_owned(),
         expected:
-            "a table [contact.<law>.heat.<model>], a conductivity of bonds or a [heat_source.<name>], or leave it out"
+            "a table [contact.<law>.heat.<model>] or [fluid.<name>.heat.<law>], a conductivity of bonds or a [heat_source.<name>], or leave it out"
                 .to_owned(),
+    }
     };
     let mut found: Vec<_> =
         boundaries.map(|boundary| (format!("boundary.{}", boundary.name), "temperature", what())).collect();

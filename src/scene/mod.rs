@@ -26,6 +26,7 @@ mod parameters;
 mod plane;
 mod probe;
 mod region;
+pub(crate) mod sizes;
 mod source;
 mod statics;
 
@@ -46,7 +47,7 @@ pub use column::ColumnStart;
 pub use damping::{AppliedForce, Damping};
 pub(crate) use exchange::parts::Known;
 pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
-pub use fluid::{Fluid, FluidVelocity, Pressure};
+pub use fluid::{Fluid, FluidHeat, FluidVelocity, Pressure};
 pub use governing::GoverningLaws;
 pub use grid::{Grid, GridOutput};
 pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
@@ -59,6 +60,7 @@ pub use plane::{MotionPlane, ParticleShape};
 pub use probe::{Derived, Probe, Probed};
 pub(crate) use probe::{DerivedKeys, ProbeKeys};
 pub use region::Region;
+pub use sizes::Sizes;
 pub use source::Source;
 
 use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};

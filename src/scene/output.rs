@@ -1,38 +1,45 @@
 //! What a run writes.
 
+use crate::base::document::keys;
 use crate::base::quantity::Positive;
 use serde::{Deserialize, Deserializer};
 use std::num::NonZeroU32;
 
-/// `[output]`: what a run writes; what is absent is not computed.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Output {
-    /// Time between rows of `history.csv` \[s\].
-    #[serde(deserialize_with = "positive")]
-    pub history_interval: Option<f64>,
-    /// Names of the columns of `history.csv`, `*` for any characters; none: all outputs but those of nodes and of cells of grids.
-    pub columns: Option<Vec<String>>,
-    /// Time between `.vtu` frames of the particles \[s\].
-    #[serde(deserialize_with = "positive")]
-    pub frame_interval: Option<f64>,
-    /// Whether each frame has a file of the contacts: point, normal, overlap, forces.
-    pub contacts: bool,
-    /// Whether each frame has a file of the boundaries: their surfaces, displacement, and the load on each facet.
-    pub boundaries: bool,
-    /// Whether the algorithmic energy book is kept.
-    pub energy: bool,
-    /// Whether the physical energy book is kept: losses, each by itself.
-    pub losses: bool,
-    /// Whether contacts near a switch are counted.
-    pub near_switch: bool,
-    /// Whether the static stiffness of boundaries is an output.
-    pub stiffness: bool,
-    /// Whether single impacts are followed, from touch to parting, and how they are told.
-    pub impacts: Option<Impacts>,
-    /// Time between checkpoints \[s\].
-    #[serde(deserialize_with = "positive")]
-    pub checkpoint_interval: Option<f64>,
+keys! {
+    /// `[output]`: what a run writes; what is absent is not computed.
+    #[derive(Clone, Debug, Default)]
+    #[serde(default)]
+    pub struct Output {
+        /// Time between rows of `history.csv` \[s\], > 0.
+        #[serde(deserialize_with = "positive")]
+        pub history_interval: Option<f64> = "no history",
+        /// Names of outputs and inputs in `history.csv`, in this order; `*` stands for any characters.
+        pub columns: Option<Vec<String>> = "all but those of nodes and of cells of grids; of more than 1,000 not those of groups",
+        /// Time between `.vtu` frames of the particles \[s\], > 0.
+        #[serde(deserialize_with = "positive")]
+        pub frame_interval: Option<f64> = "no frames",
+        /// Whether each frame has a file of contacts: point, normal, overlap, forces.
+        pub contacts: bool = "`false`",
+        /// Whether each frame has a file of the boundaries, with displacement and load on each facet.
+        pub boundaries: bool = "`false`",
+        /// Whether the algorithmic energy book is kept.
+        pub energy: bool = "`false`",
+        /// Whether losses are booked by cause: outputs `energy.lost.<cause>`.
+        pub losses: bool = "`false`",
+        /// Output `contacts.near_switch`: contacts (of particles and planes) that a ten-thousandth of their overlap more or less would
+        /// let begin or end to slide, or to touch.
+        pub near_switch: bool = "`false`",
+        /// Outputs `<boundary>.stiffness.<axis>` \[N/m\], the condensed static stiffness, and `cell.stiffness.<component>.<component>`
+        /// \[Pa\], the tangent of a cell: some hundred evaluations for each value that is read; where the particles come to no rest an
+        /// empty field, and the unit refuses to tell it.
+        pub stiffness: bool = "`false`",
+        /// Follows single impacts: `{ histogram = { bins_per_decade = 5 }, events = false }`; `events` writes each to `impacts.csv`; keeps
+        /// `losses`.
+        pub impacts: Option<Impacts> = "none",
+        /// Time between checkpoints \[s\], > 0.
+        #[serde(deserialize_with = "positive")]
+        pub checkpoint_interval: Option<f64> = "none",
+    }
 }
 
 /// `[output] impacts`: single impacts.

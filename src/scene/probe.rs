@@ -1,9 +1,8 @@
 //! What a scene looks at beside its boundaries and regions: single particles, sets and contacts, and sums of outputs.
 
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::quantity::{ParticleId, SetIndex};
 use crate::scene::Particle;
-use serde::Deserialize;
 
 /// `[probe.<name>]`
 #[derive(Clone, Debug, PartialEq)]
@@ -34,24 +33,26 @@ pub struct Derived {
     pub sum: Vec<String>,
 }
 
-/// `[probe.<name>]` as a scene writes it: one of these.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ProbeKeys {
-    /// Number of a particle.
-    particle: Option<u32>,
-    /// Name of a set.
-    set: Option<String>,
-    /// Numbers of two particles.
-    contact: Option<[u32; 2]>,
+keys! {
+    /// `[probe.<name>]` as a scene writes it: one of these.
+    #[derive(Clone, Debug)]
+    pub(crate) struct ProbeKeys {
+        /// Number of a particle.
+        particle: Option<u32> = "one of three",
+        /// Name of a set: its mass centre, all forces on it.
+        set: Option<String> = "one of three",
+        /// Numbers of two particles, `[id, id]`.
+        contact: Option<[u32; 2]> = "one of three",
+    }
 }
 
-/// `[derived.<name>]` as a scene writes it.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct DerivedKeys {
-    /// Names of outputs.
-    pub(crate) sum: Vec<String>,
+keys! {
+    /// `[derived.<name>]` as a scene writes it.
+    #[derive(Clone, Debug)]
+    pub(crate) struct DerivedKeys {
+        /// Names of outputs, of which it is the sum; `*` stands for any characters.
+        pub(crate) sum: Vec<String> = "required",
+    }
 }
 
 impl Probe {

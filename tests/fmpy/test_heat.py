@@ -98,3 +98,23 @@ def test_the_derivative_by_temperature_is_that_of_differences(path):
         derivative = unit.derivative(["floor.mean_heat_flow"], ["floor.temperature"])[0, 0]
         assert derivative == pytest.approx(0.5 * (flows[1] - flows[0]), rel=1e-8)
         assert derivative < 0.0
+
+
+def test_the_function_of_fmi_itself_gives_derivatives_of_heat_flows(path):
+    outputs = ["floor.mean_heat_flow", "lid.mean_heat_flow", "energy.heat"]
+    with Unit(path) as unit:
+        references = [unit.variables[name].valueReference for name in [*outputs, "floor.temperature"]]
+        unit["floor.temperature"] = 320.0
+        unit.step(0.1)
+        state, found = unit.save(), []
+        for temperature in (338.0, 342.0, 340.0):
+            unit.restore(state)
+            unit["floor.temperature"] = temperature
+            unit.step(0.1)
+            found.append(unit.get(outputs))
+        # For 2 K, of the outputs at the end of the step by the input that was set before it.
+        told = unit.slave.getDirectionalDerivative(references[:3], references[3:], [2.0])
+        assert list(told) == pytest.approx(0.5 * (found[1] - found[0]), rel=1e-7)
+        # The grains gain what they do not give to the two boundaries.
+        assert told[2] == pytest.approx(-0.1 * (told[0] + told[1]), rel=1e-9)
+        assert told[0] < 0.0 < told[1]

@@ -1,5 +1,6 @@
 //! The commands: what they leave, what they say, and with which status they end.
 
+mod beyond;
 mod broken_off;
 mod charts;
 mod checks;

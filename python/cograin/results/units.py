@@ -63,7 +63,7 @@ def unit_of(name: str) -> str:
     Names of derived outputs and ``<insertion>.rate`` tell none: `Table.unit_of` knows those of a run or a record.
     """
     first, *words = name.split(".")
-    if "count_by_set" in words:
+    if "count_by_set" in words or "mixing_index" in words:
         return "1"  # a set behind it may have any name
     units = {**UNITS, **CELL} if first == "cell" else UNITS
     return next((units[word] for word in reversed(words) if word in units), FIRST.get(first, "1"))

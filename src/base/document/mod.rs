@@ -4,6 +4,7 @@ mod attempt;
 mod error;
 mod faults;
 mod foreign;
+mod keys;
 pub(crate) mod messages;
 mod mistake;
 mod nearest;
@@ -14,6 +15,9 @@ mod value;
 
 pub use error::{SceneError, SceneErrors};
 pub(crate) use faults::Faults;
+pub(crate) use keys::keys;
+#[cfg(test)]
+pub(crate) use keys::{Key, Table, printed};
 pub use mistake::Mistake;
 pub(crate) use phrases::{proposal, told_columns};
 pub(crate) use setting::apply;

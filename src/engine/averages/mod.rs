@@ -1,10 +1,10 @@
 //! What is in the regions and the cells of grids of a scene: found by looking, never in a time step.
 
-mod cells;
+mod counts;
 pub(crate) mod look;
 mod probes;
 
-pub use cells::{Count, counts};
+pub use counts::{Count, counts, counts_of_regions, lacey_index};
 pub use probes::{Sight, sights};
 
 use crate::base::number::Vector;

@@ -16,13 +16,13 @@ pub(crate) mod images;
 pub(crate) mod near;
 mod servo;
 mod stress;
+mod sweeps;
 
 pub use stress::Fabric;
 
 use crate::base::number::Row;
-use crate::base::threads::{CHUNK, Context};
+use crate::base::threads::Context;
 use crate::engine::bodies::clumps::{self, ClumpBodies};
-use crate::engine::integration::Rows;
 use crate::engine::run_error::RunError;
 use crate::engine::state::cell::{CellState, Square, Strains};
 use crate::engine::state::ledger::Source;
@@ -32,6 +32,7 @@ use crate::scene::{CellMotion, ClumpShape, Scene};
 use deformation::{Change, product, times};
 use images::Images;
 use servo::Felt;
+use sweeps::carry;
 
 /// Strain in one time step that nobody can mean.
 const LARGEST_STEP: f64 = 0.05;
@@ -257,15 +258,11 @@ impl Cell {
     }
 
     /// Gives passes the velocities that include the streaming motion.
-    pub(crate) fn stream(&mut self, state: &mut State) {
+    pub(crate) fn stream(&mut self, state: &mut State, context: &Context) {
         let Some(cell) = &mut state.cell else { return };
         cell.virial = Square::default();
         let Some(cell) = state.cell.as_ref().filter(|cell| cell.streams()) else { return };
-        self.other.clear();
-        self.other.extend(state.particles.velocity.iter().enumerate().map(|(slot, velocity)| {
-            let [u, v, w] = cell.streaming_at(state.carried_point(slot));
-            [velocity[0] + u, velocity[1] + v, velocity[2] + w, velocity[3]]
-        }));
+        sweeps::streaming(cell, state, &mut self.other, context);
         std::mem::swap(&mut self.other, &mut state.particles.velocity);
     }
 
@@ -283,21 +280,7 @@ impl Cell {
         if cell.streams() {
             std::mem::swap(&mut self.other, &mut state.particles.velocity);
         }
-        let (here, origin) = (&*state, cell.origin);
-        let (force, count) = (&here.particles.force, here.particles.len());
-        let of_piece = |piece: usize| {
-            let mut sum = Square::default();
-            for slot in piece * CHUNK..((piece + 1) * CHUNK).min(count) {
-                let point = here.carried_point(slot);
-                let place = [0, 1, 2].map(|axis| point[axis] - origin[axis]);
-                add_dyad(&mut sum, [force[slot][0], force[slot][1], force[slot][2]], place);
-            }
-            sum
-        };
-        let sum = context.fold(count.div_ceil(CHUNK), of_piece, Square::default(), |mut sum, part| {
-            add(&mut sum, &part);
-            sum
-        });
+        let sum = sweeps::virial(cell, state, context);
         if let Some(cell) = &mut state.cell {
             add(&mut cell.virial, &sum);
         }
@@ -378,70 +361,7 @@ fn book_streaming(ledger: &mut Ledger, work: f64) {
     ledger.turnover += work.abs();
 }
 
-/// Carries the particles and clumps along, after the drift. Returns −M \[J\] and what that added to the momentum
-/// \[N s\].
-fn carry(state: &mut State, origin: &[f64; 3], change: &Change, step: f64, context: &Context) -> (Square, [f64; 3]) {
-    let (rows, half) = (Rows::of(&mut state.particles), 0.5 * step);
-    let is_none = change.is_none();
-    let carry = |(sum, impulse): &mut (Square, [f64; 3]), position: &mut Row, velocity: &mut Row| {
-        let [u, v, w, mass] = *velocity;
-        let before = [u, v, w];
-        let after = if is_none { before } else { times(&change.backward, before) };
-        let mean = [0, 1, 2].map(|axis| 0.5 * mass * (after[axis] + before[axis]));
-        add_dyad(sum, mean, after);
-        if is_none {
-            return;
-        }
-        let from = [0, 1, 2].map(|axis| position[axis] - half * before[axis] - origin[axis]);
-        let to = times(&change.forward, from);
-        for axis in 0..3 {
-            position[axis] = origin[axis] + to[axis] + half * after[axis];
-            velocity[axis] = after[axis];
-            impulse[axis] += mass * (after[axis] - before[axis]);
-        }
-    };
-    let of_piece = |piece: usize| {
-        let mut sums = (Square::default(), [0.0; 3]);
-        rows.each_free(piece, |body| carry(&mut sums, body.position, body.velocity));
-        sums
-    };
-    let begin = (Square::default(), [0.0; 3]);
-    let mut sums = context.fold(rows.pieces(), of_piece, begin, |(mut sum, mut impulse), (part, added)| {
-        add(&mut sum, &part);
-        impulse.iter_mut().zip(added).for_each(|(sum, part)| *sum += part);
-        (sum, impulse)
-    });
-    for clump in 0..state.clumps.len() {
-        let State { particles, clumps, .. } = &mut *state;
-        let before = [clumps.position[clump], clumps.velocity[clump]];
-        carry(&mut sums, &mut clumps.position[clump], &mut clumps.velocity[clump]);
-        if is_none {
-            continue;
-        }
-        // The spheres go with it and do not turn.
-        for &sphere in clumps.spheres_of(clump) {
-            let slot = particles.slot[sphere as usize] as usize;
-            let (position, velocity) = (&mut particles.position[slot], &mut particles.velocity[slot]);
-            for axis in 0..3 {
-                position[axis] += clumps.position[clump][axis] - before[0][axis];
-                velocity[axis] += clumps.velocity[clump][axis] - before[1][axis];
-            }
-        }
-    }
-    sums
-}
-
 /// Adds a matrix to a sum.
 fn add(sum: &mut Square, other: &Square) {
     sum.as_flattened_mut().iter_mut().zip(other.as_flattened()).for_each(|(sum, part)| *sum += part);
-}
-
-/// Adds a dyad to a sum.
-#[inline(always)]
-fn add_dyad(sum: &mut Square, rows: [f64; 3], columns: [f64; 3]) {
-    for (sum, row) in sum.iter_mut().zip(rows) {
-        for (sum, column) in sum.iter_mut().zip(columns) {
-            *sum += row * column;
-        }
-    }
 }

@@ -2,6 +2,7 @@
 
 use super::Cell;
 use super::deformation::times;
+use super::sweeps::{Columns, add_dyad, square};
 use crate::base::geometry::lattice::STRAIN_PLACES;
 use crate::base::number::Vector;
 use crate::base::threads::Context;
@@ -52,12 +53,13 @@ impl Cell {
     /// Cauchy stress of contacts, bonds and velocities at the present time, tension positive \[Pa\].
     pub(crate) fn stress(&self, state: &State) -> Strains {
         let Some(cell) = &state.cell else { return Strains::default() };
-        let mut kinetic = Square::default();
+        let mut kinetic = Columns::default();
         let particles = &state.particles;
         let loose = particles.slots().filter(|&slot| state.clump(slot).is_none()).map(|slot| &particles.velocity[slot]);
         for &[u, v, w, mass] in loose.chain(&state.clumps.velocity) {
-            super::add_dyad(&mut kinetic, [mass * u, mass * v, mass * w], [u, v, w]);
+            add_dyad(&mut kinetic, &[mass * u, mass * v, mass * w, 0.0], &[u, v, w, 0.0]);
         }
+        let kinetic = square(&kinetic);
         let volume = self.volume(state);
         std::array::from_fn(|component| of(&cell.virial, &kinetic, component) / volume)
     }

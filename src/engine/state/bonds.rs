@@ -1,5 +1,6 @@
 //! Living bonds, and what became of the others.
 
+use super::check::{MOST, StateFault, all_finite, ascending, column, demand, described, ends, finite, in_slabs};
 use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
@@ -94,4 +95,64 @@ pub struct Break {
     pub direction: [f64; 3],
     /// Area of the cross-section \[m²\].
     pub area: f64,
+}
+
+impl BondList {
+    /// Whether it has as many rows as its formulation, if there is one, and a foot or a second body of each bond.
+    pub(crate) fn check_rows(&self, rows: Option<usize>, at_plane: bool) -> Result<(), StateFault> {
+        let count = self.first.len();
+        column(&self.foot, count, at_plane, "foot")?;
+        column(&self.second, count, !at_plane, "second")?;
+        demand([0, count].contains(&self.lost.len()), "lost", self.lost.len(), "one for each bond, or none")?;
+        described((&self.rows, rows), count)
+    }
+
+    /// Whether the list can be one of so many particles in these slabs.
+    pub(super) fn check(&self, count: usize, particles: &[u32]) -> Result<(), StateFault> {
+        let numbers = [self.relaxed, self.damped, self.released];
+        all_finite(&numbers, "bonds")?;
+        all_finite(&self.lost, "lost")?;
+        demand(
+            [self.made, self.broken, self.removed].iter().all(|count| *count < MOST),
+            "bonds",
+            0,
+            "a count that can be reached",
+        )?;
+        for column in self.rows.iter().chain(&self.damping).chain([&self.foot]) {
+            finite(column, "bonds")?;
+        }
+        let bonds = self.first.len();
+        if !self.slabs.is_empty() {
+            ends(&self.slabs, bonds, "bonds")?;
+        }
+        if self.second.is_empty() {
+            return ascending(&self.first, count, "bonds");
+        }
+        demand(self.second.len() == bonds, "bonds", self.second.len(), "columns of one length")?;
+        demand(!self.slabs.is_empty(), "bonds", 1, "slabs")?;
+        let pair = |bond: usize| {
+            let (i, j) = (self.first[bond], self.second[bond]);
+            (i.min(j), i.max(j))
+        };
+        in_slabs(pair, &self.slabs, particles, "bonds")
+    }
+
+    /// Whether it has the columns of a law: rows of state, what each lost, and a foot or a second body.
+    pub(crate) fn check_columns(&self, rows: usize, lost: bool, at_plane: bool) -> Result<(), StateFault> {
+        let count = self.first.len();
+        column(&self.foot, count, at_plane, "foot")?;
+        column(&self.second, count, !at_plane, "second")?;
+        column(&self.lost, count, lost, "lost")?;
+        if count > 0 {
+            demand(self.rows.len() == rows, "rows", self.rows.len(), "the rows of the law")?;
+        }
+        self.rows.iter().try_for_each(|row| column(row, count, true, "rows"))
+    }
+
+    /// Whether it has as many columns of what damping leaves as its law has rows.
+    pub(crate) fn check_damping(&self, rows: usize) -> Result<(), StateFault> {
+        let fits = self.damping.len() == rows || self.damping.is_empty() && self.first.is_empty();
+        demand(fits, "damping", self.damping.len(), "a column for each row of the law's damping")?;
+        self.damping.iter().try_for_each(|row| column(row, self.first.len(), true, "damping"))
+    }
 }

@@ -196,3 +196,70 @@ impl Default for Orientation {
         Self([1.0, 0.0, 0.0, 0.0])
     }
 }
+
+impl BoundaryState {
+    /// Whether every number is finite.
+    pub(super) fn is_finite(&self) -> bool {
+        let Self {
+            displacement, velocity, rotation, angular_velocity, orientation, pivot, start, target, fastest, ..
+        } = self;
+        let Self { target_rate, start_orientation, turn, inertial, force, moment, impulse, .. } = self;
+        let Self { angular_impulse, mean_force, mean_moment, total_impulse, work, .. } = self;
+        let Self { target_acceleration, acceleration, first_moment, force_slope, .. } = self;
+        let Self { force_before, moment_before, before, brought_back, .. } = self;
+        let triples = [
+            displacement,
+            velocity,
+            rotation,
+            angular_velocity,
+            pivot,
+            turn,
+            force,
+            moment,
+            impulse,
+            angular_impulse,
+            mean_force,
+            mean_moment,
+            total_impulse,
+            target_acceleration,
+            acceleration,
+            first_moment,
+            force_slope,
+            force_before,
+            moment_before,
+            &before.displacement,
+            brought_back,
+            &inertial.angular_momentum,
+            &inertial.load,
+            &inertial.couple,
+            &inertial.braking_force,
+            &inertial.braking_moment,
+            &inertial.kick,
+            &inertial.spin_kick,
+        ];
+        let sixes = [
+            start,
+            &self.end,
+            target,
+            target_rate,
+            fastest,
+            &inertial.applied,
+            &inertial.support,
+            &inertial.applied_impulse,
+            &inertial.support_impulse,
+        ];
+        let rows = [orientation.0, start_orientation.0, before.orientation.0];
+        triples.into_iter().flatten().chain(sixes.into_iter().flatten()).all(|number| number.is_finite())
+            && rows.iter().flatten().all(|number| number.is_finite())
+            && work.is_finite()
+            && self.pressed.iter().all(Pressed::is_finite)
+    }
+}
+
+impl Pressed {
+    /// Whether all numbers are finite.
+    pub(super) fn is_finite(&self) -> bool {
+        let Self { impedance, stiffness, force, way } = *self;
+        [impedance, stiffness, force, way].iter().all(|number| number.is_finite())
+    }
+}

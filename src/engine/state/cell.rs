@@ -1,7 +1,8 @@
 //! The periodic cell: how far it is deformed, and which particles are images of others.
 
+use super::check::{MOST, StateFault, all_finite, demand, demand_all};
 use super::in_place::clone_in_place;
-use super::{Row, plain};
+use super::{IMAGE, Particles, Row, plain};
 use crate::base::geometry::lattice::displacement;
 use serde::{Deserialize, Serialize};
 
@@ -140,5 +141,41 @@ impl CellState {
     /// Whether the cell is being deformed.
     pub(crate) fn streams(&self) -> bool {
         self.gradient != Square::default()
+    }
+}
+
+impl CellState {
+    /// Whether it can be one of these particles, which have been checked.
+    pub(super) fn check(&self, particles: &Particles) -> Result<(), StateFault> {
+        let edges = [self.reference, self.edges];
+        let triangular = edges.iter().all(|[a, b, c]| {
+            a[0] > 0.0 && b[1] > 0.0 && c[2] > 0.0 && [a[1], a[2], b[2]].iter().all(|part| *part == 0.0)
+        });
+        demand(triangular, "cell", 0, "edges [ax, 0, 0], [bx, by, 0], [cx, cy, cz] with ax, by, cz above 0")?;
+        let squares = [self.reference, self.edges, self.gradient, self.virial, self.kinetic];
+        all_finite(squares.as_flattened().as_flattened(), "cell")?;
+        let sixes = [self.strain, self.rate, self.start, self.end, self.target, self.target_rate];
+        all_finite(sixes.as_flattened(), "cell")?;
+        let means = [self.stress_sum, self.mean_stress, self.conjugate_stress];
+        all_finite(means.as_flattened(), "cell")?;
+        all_finite([self.stiffness, self.held_rate, self.action].as_flattened(), "cell")?;
+        all_finite(&self.impulse, "cell")?;
+        all_finite(&[self.inertia, self.volume_before, self.work], "cell")?;
+        let count = self.images.len();
+        let columns = self.originals.len() == count && self.displaced.len() == count;
+        demand(columns && count == particles.images(), "images", count, "an entry for each image")?;
+        let away = self.edges_away.len();
+        demand(away == particles.slot.len(), "edges_away", away, "one for each particle")?;
+        let counts = self.edges_away.iter().chain(&self.displaced).flatten();
+        demand_all(counts.map(|edges| edges.unsigned_abs() < MOST), "edges_away", "counts that can be reached")?;
+        let mut seen = vec![false; particles.len()];
+        let sound = self.images.iter().zip(&self.originals).map(|(&image, &original)| {
+            let (image, original) = (image as usize, original as usize);
+            let is_image = particles.owner.get(image) == Some(&IMAGE) && !std::mem::replace(&mut seen[image], true);
+            is_image
+                && particles.owner.get(original).is_some_and(|&it| it != IMAGE)
+                && particles.id[image] == particles.id[original]
+        });
+        demand_all(sound, "images", "an image of the particle of its number, each once")
     }
 }

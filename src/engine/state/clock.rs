@@ -1,5 +1,6 @@
 //! Time and counters.
 
+use super::check::{MOST, StateFault, all_finite, demand};
 use serde::{Deserialize, Serialize};
 
 /// Time as a compensated sum, the time step, and what was counted.
@@ -62,5 +63,33 @@ impl Clock {
         let sum = self.time + small;
         self.lost = (sum - self.time) - small;
         self.time = sum;
+    }
+}
+
+impl Clock {
+    /// Whether this can be one.
+    pub(super) fn check(&self) -> Result<(), StateFault> {
+        let numbers = [self.time, self.lost, self.step, self.last_step, self.speed];
+        all_finite(&numbers, "clock")?;
+        let lengths = self.step > 0.0 && self.last_step >= 0.0 && self.stable > 0.0 && self.speed >= 0.0;
+        demand(lengths, "clock", 0, "a step above 0 and a speed of 0 or above")?;
+        demand(
+            [self.steps, self.rebuilds, self.divided].iter().all(|count| *count < MOST),
+            "clock",
+            1,
+            "a count that can be reached",
+        )
+    }
+}
+
+impl Underway {
+    /// Whether this can be one.
+    pub(super) fn check(&self) -> Result<(), StateFault> {
+        let Self { begun, done, count, step, passed, length, boundary_speed } = *self;
+        all_finite(&[step, passed, length, boundary_speed], "underway")?;
+        let lengths = step > 0.0 && length > 0.0 && (0.0..1.0).contains(&passed) && boundary_speed >= 0.0;
+        demand(lengths, "underway", 0, "steps above 0 and a share from 0 to 1")?;
+        demand(begun < MOST, "underway", 2, "a count that can be reached")?;
+        demand(done < count, "underway", 1, "time steps that are left")
     }
 }

@@ -1,8 +1,9 @@
 //! Clumps: rigid bodies whose spheres stand among the particles.
 
+use super::check::{FINITE, StateFault, all_finite, demand, demand_all, finite};
 use super::in_place::clone_in_place;
 use super::number::keep;
-use super::{GONE, InsertedParticle, Particles, Row, State, plain};
+use super::{GONE, IMAGE, InsertedParticle, Particles, Row, State, plain};
 use serde::{Deserialize, Serialize};
 
 /// Clumps by ascending number, rows of 32 bytes.
@@ -197,5 +198,52 @@ impl State {
                 owner[slot[sphere as usize] as usize] = (boundaries.len() + clump) as u32 + 1;
             }
         }
+    }
+}
+
+impl Clumps {
+    /// Whether these can be clumps of these particles, which have been checked, behind so many boundaries.
+    pub(super) fn check(&self, particles: &Particles, boundaries: usize) -> Result<(), StateFault> {
+        self.check_rows()?;
+        let mut start = 0;
+        for (clump, &end) in self.ends.iter().enumerate() {
+            let spheres = self.spheres.get(start..end as usize).unwrap_or_default();
+            let is_member = |&sphere: &u32| {
+                let slot = particles.slot_of(sphere);
+                slot.is_some_and(|slot| particles.owner[slot] as usize == boundaries + 1 + clump)
+            };
+            demand(!spheres.is_empty() && spheres.iter().all(is_member), "clumps", clump, "spheres of its own")?;
+            start = end as usize;
+        }
+        let owned = |owner: &&u32| **owner as usize > boundaries && **owner != IMAGE;
+        let whole = start == self.spheres.len() && particles.owner.iter().filter(owned).count() == start;
+        demand(whole, "clumps", 0, "each sphere once")?;
+        demand(self.number.windows(2).all(|two| two[0] < two[1]), "clumps", 0, "ascending numbers")
+    }
+
+    /// Whether the rows are of one length, and of finite numbers.
+    pub(super) fn check_rows(&self) -> Result<(), StateFault> {
+        let Self { position, moments, velocity, orientation, .. } = self;
+        let Self { angular_momentum, angular_velocity, force, moment, braking, .. } = self;
+        let rows = [position, moments, velocity, orientation, angular_momentum, angular_velocity, force, moment];
+        let lengths = rows.iter().map(|rows| rows.len() == self.len());
+        demand_all(lengths, "clumps", "columns of one length")?;
+        let more = [self.scale.len(), self.shape.len(), self.number.len(), self.ends.len()];
+        demand_all(more.iter().map(|length| *length == self.len()), "clumps", "columns of one length")?;
+        all_finite(&self.scale, "clumps")?;
+        rows.into_iter().try_for_each(|rows| finite(rows, "clumps"))?;
+        let braked = braking.is_empty() || braking.len() == self.len();
+        demand(
+            braked && braking.as_flattened().as_flattened().iter().all(|part| part.is_finite()),
+            "clumps",
+            0,
+            FINITE,
+        )?;
+        let length = |row: &Row| row.iter().map(|part| part * part).sum::<f64>();
+        demand_all(orientation.iter().map(|row| (length(row) - 1.0).abs() < 1e-6), "clumps", "unit quaternions")?;
+        let energies = velocity.iter().zip(angular_momentum.iter().zip(angular_velocity));
+        let energies =
+            energies.map(|(v, (l, w))| v[3] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) + length(l) + length(w));
+        demand_all(energies.map(f64::is_finite), "clumps", "a kinetic energy that is a number")
     }
 }

@@ -1,7 +1,10 @@
 //! Pairs that may touch, with the history of those that do.
 
+use super::check::{
+    FINITE, StateFault, all_finite, ascending, column, demand, demand_all, ends, finite, has_rows, in_slabs, remembered,
+};
 use super::in_place::clone_in_place;
-use super::{History, Row, plain};
+use super::{Clock, History, Row, plain};
 use serde::{Deserialize, Serialize};
 
 /// When the neighbour lists were made, and for where.
@@ -168,3 +171,114 @@ pub struct NearParts {
 clone_in_place!(WallContacts { boundary, law, particle, flags, history, pair_constant, feature, near });
 
 clone_in_place!(NearParts { particle, starts, parts, plane });
+
+impl Neighbours {
+    /// Whether the lists can have been made for so many particles and boundaries.
+    pub(super) fn check(&self, particles: usize, boundaries: usize, clock: &Clock) -> Result<(), StateFault> {
+        all_finite(&[self.skin, self.travel], "neighbours")?;
+        demand(self.skin >= 0.0 && self.travel >= 0.0, "neighbours", 0, "a skin and a way of 0 or above")?;
+        demand(self.made_at <= clock.steps, "neighbours", 1, "a step in which the lists were made that is past")?;
+        let Columns { x, y, z, radius } = &self.reference;
+        let same = [y, z, radius].into_iter().all(|column| column.len() == x.len());
+        let fits = x.is_empty() || x.len() >= particles;
+        demand(same && fits, "reference", x.len(), "a place for each particle")?;
+        for column in [x, y, z, radius] {
+            all_finite(column, "reference")?;
+        }
+        let there = self.boundary_reference.len();
+        demand(there == 0 || there == boundaries, "boundary_reference", there, "one for each boundary")?;
+        let others = [self.boundary_orientation.len(), self.boundary_extent.len()];
+        demand_all(others.iter().map(|other| *other == there), "boundary_reference", "one for each boundary")?;
+        finite(&self.boundary_orientation, "boundary_orientation")?;
+        let extents = self.boundary_extent.iter().map(|extent| *extent >= 0.0);
+        demand_all(extents, "boundary_extent", "0 or above")?;
+        demand_all(self.boundary_reference.iter().flatten().map(|it| it.is_finite()), "boundary_reference", FINITE)?;
+        if self.slabs.is_empty() { Ok(()) } else { ends(&self.slabs, particles, "slabs") }
+    }
+}
+
+impl ContactList {
+    /// Whether the list can stand in these slabs of particles.
+    pub(super) fn check(&self, particles: &[u32]) -> Result<(), StateFault> {
+        let count = self.first.len();
+        let equal = self.second.len() == count && self.flags.len() == count;
+        demand(equal, "contacts", count, "columns of one length")?;
+        if self.slabs.is_empty() {
+            return demand(count == 0, "contacts", count, "no pair where there is no slab");
+        }
+        ends(&self.slabs, count, "contacts")?;
+        in_slabs(|pair| (self.first[pair], self.second[pair]), &self.slabs, particles, "contacts")?;
+        finite(self.history.all(), "history")?;
+        all_finite(&self.pair_constant, "pair_constant")
+    }
+
+    /// Whether it has the columns of a law that remembers so many rows of each contact.
+    pub(crate) fn check_columns(&self, history: usize, pair_constant: bool) -> Result<(), StateFault> {
+        let columns = (&self.history, history, &self.pair_constant[..], pair_constant);
+        remembered(columns, self.first.len())
+    }
+
+    /// Whether it has as many rows as its law remembers, if there is one.
+    pub(crate) fn check_history(&self, rows: Option<usize>) -> Result<(), StateFault> {
+        has_rows((&self.history, rows), self.first.len())
+    }
+}
+
+impl WallContacts {
+    /// Whether the list can be one of so many particles.
+    pub(super) fn check(&self, particles: usize) -> Result<(), StateFault> {
+        demand(self.flags.len() == self.particle.len(), "walls", self.flags.len(), "columns of one length")?;
+        let order = self.particle.windows(2).map(|pair| pair[0] <= pair[1]);
+        demand_all(order, "walls", "ascending order")?;
+        let last = self.particle.last().is_none_or(|&last| (last as usize) < particles);
+        demand(last, "walls", self.particle.len(), "slots of particles")?;
+        self.near.check(particles)?;
+        finite(self.history.all(), "history")?;
+        all_finite(&self.pair_constant, "pair_constant")
+    }
+
+    /// Whether it has the columns of a law that remembers so many rows of each contact.
+    pub(crate) fn check_columns(&self, history: usize, pair_constant: bool) -> Result<(), StateFault> {
+        let columns = (&self.history, history, &self.pair_constant[..], pair_constant);
+        remembered(columns, self.particle.len())?;
+        let once = self.particle.windows(2).map(|pair| pair[0] < pair[1]);
+        demand_all(once, "walls", "each particle once")?;
+        demand(self.feature.is_empty() && self.near.particle.is_empty(), "feature", 0, "no feature at a plane")
+    }
+
+    /// The same of a list at a surface of so many parts and features. Pair constants are kept of the near particles.
+    pub(crate) fn check_features(
+        &self,
+        history: usize,
+        pair_constant: bool,
+        [parts, features]: [usize; 2],
+    ) -> Result<(), StateFault> {
+        remembered((&self.history, history, &[], false), self.particle.len())?;
+        column(&self.pair_constant, self.near.particle.len(), pair_constant, "pair_constant")?;
+        column(&self.feature, self.particle.len(), true, "feature")?;
+        let there = self.feature.iter().map(|&feature| (feature as usize) < features);
+        demand_all(there, "feature", "features of the surface")?;
+        let there = self.near.parts.iter().map(|&part| (part as usize) < parts);
+        demand_all(there, "near", "parts of the surface")
+    }
+
+    /// The same.
+    pub(crate) fn check_history(&self, rows: Option<usize>) -> Result<(), StateFault> {
+        let feature = self.feature.is_empty() || self.feature.len() == self.particle.len();
+        demand(feature, "feature", self.feature.len(), "one for each contact, or none")?;
+        has_rows((&self.history, rows), self.particle.len())
+    }
+}
+
+impl NearParts {
+    /// Whether the lists can be of so many particles.
+    pub(super) fn check(&self, particles: usize) -> Result<(), StateFault> {
+        ascending(&self.particle, particles, "near")?;
+        demand(self.plane.len() == self.particle.len(), "near", self.plane.len(), "a plane or none for each particle")?;
+        if self.starts.is_empty() {
+            return demand(self.particle.is_empty() && self.parts.is_empty(), "near", 0, "no part without a start");
+        }
+        demand(self.starts.len() == self.particle.len() + 1, "near", self.starts.len(), "a start for each particle")?;
+        ends(&self.starts, self.parts.len(), "near")
+    }
+}

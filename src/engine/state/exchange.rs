@@ -1,5 +1,6 @@
 //! The state of particles that come and go: counts, rates, random generators, and their part in the energy books.
 
+use super::check::{StateFault, demand};
 use super::in_place::clone_in_place;
 use serde::{Deserialize, Serialize};
 
@@ -187,5 +188,16 @@ impl Exchange {
             && self.travel.is_finite()
             && tallies.map(|tally| tally.mass).chain(feeds).all(|number| number >= 0.0 && number.is_finite())
             && meters.chain(rates).chain(self.net.numbers()).all(f64::is_finite)
+    }
+}
+
+impl Exchange {
+    /// Whether it has as many insertions, outlets, boundaries and flow meters as another.
+    pub(super) fn check_same(&self, other: &Self) -> Result<(), StateFault> {
+        let expected = "as many as the scene has";
+        demand(self.feeds.len() == other.feeds.len(), "feeds", self.feeds.len(), expected)?;
+        demand(self.outlets.len() == other.outlets.len(), "outlets", self.outlets.len(), expected)?;
+        demand(self.passed.len() == other.passed.len(), "passed", self.passed.len(), expected)?;
+        demand(self.meters.len() == other.meters.len(), "meters", self.meters.len(), expected)
     }
 }

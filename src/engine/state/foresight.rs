@@ -1,5 +1,6 @@
 //! For which motion the stable time step holds, and hence when it is computed again.
 
+use super::check::{MOST, StateFault, demand};
 use serde::{Deserialize, Serialize};
 
 /// Limits of motion and bonds within which the stable time step that was computed last holds.
@@ -29,4 +30,17 @@ pub struct Foresight {
     pub until: u64,
     /// Time up to which new bonds were counted \[s\].
     pub to: f64,
+}
+
+impl Foresight {
+    /// Whether this can be one. What is not foreseen may be infinite.
+    pub(super) fn check(&self) -> Result<(), StateFault> {
+        let Self { root, counter, looks, travel, reach, strained, strain_reach, speed, fastest, bonds, until: _, to } =
+            *self;
+        let numbers =
+            [root, travel, reach, strained, strain_reach, speed, fastest, to].iter().all(|number| !number.is_nan());
+        demand(numbers, "foresight", 0, "numbers")?;
+        let counts = [counter, looks, bonds[0], bonds[1]].iter().all(|&count| count < MOST);
+        demand(counts, "foresight", 1, "a count that can be reached")
+    }
 }

@@ -1,5 +1,6 @@
 //! The algorithmic energy book.
 
+use super::check::{StateFault, all_finite, demand};
 use super::in_place::clone_in_place;
 use serde::{Deserialize, Serialize};
 
@@ -115,5 +116,22 @@ impl Ledger {
     /// Work of all forces \[J\].
     pub fn total(&self) -> f64 {
         self.work.iter().sum()
+    }
+}
+
+impl Ledger {
+    /// Whether the book can be one of a scene with so many boundaries and clumps.
+    pub(super) fn check(&self, boundaries: usize, clumps: usize) -> Result<(), StateFault> {
+        let Self { initial_kinetic, initial_elastic, turnover, power_turned_over, .. } = *self;
+        all_finite(&[initial_kinetic, initial_elastic, turnover, power_turned_over], "ledger")?;
+        for powers in [&self.work, &self.power, &self.growth] {
+            all_finite(powers, "ledger")?;
+        }
+        for loads in &self.on_bodies {
+            let expected = "one for each boundary and clump, or none";
+            demand(loads.is_empty() || loads.len() == boundaries + clumps, "loads", loads.len(), expected)?;
+            loads.iter().try_for_each(|load| all_finite(load, "loads"))?;
+        }
+        Ok(())
     }
 }

@@ -1,5 +1,6 @@
 //! The physical energy book: what each kind of loss took, by itself.
 
+use super::check::{StateFault, all_finite};
 use super::in_place::clone_in_place;
 use serde::{Deserialize, Serialize};
 
@@ -116,5 +117,16 @@ impl Losses {
     /// Adds what a loss took \[J\].
     pub(crate) fn add(&mut self, loss: Loss, energy: f64) {
         self.taken[loss as usize] += energy;
+    }
+}
+
+impl Losses {
+    /// Whether all its numbers are finite.
+    pub(super) fn check(&self) -> Result<(), StateFault> {
+        let Self { initial_kinetic, initial_elastic, initial_potential, given_to_bodies, .. } = self;
+        all_finite(&[*initial_kinetic, *initial_elastic, *initial_potential, *given_to_bodies], "losses")?;
+        all_finite(&self.initial_held, "losses")?;
+        all_finite(&self.taken, "losses")?;
+        all_finite(&self.braking, "losses")
     }
 }

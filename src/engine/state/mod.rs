@@ -183,12 +183,14 @@ impl State {
 
     /// The point of what stands in a slot that a periodic cell carries along \[m\]: its centre or, of a sphere of a clump, the mass centre of
     /// the clump, as it is to an image of the sphere.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn carried_point(&self, slot: usize) -> Row {
+        if self.clumps.is_empty() { self.particles.position[slot] } else { self.point_of_clump(slot) }
+    }
+
+    /// The same where there are clumps \[m\].
+    fn point_of_clump(&self, slot: usize) -> Row {
         let place = self.particles.position[slot];
-        if self.clumps.is_empty() {
-            return place;
-        }
         let original = self.particles.original(slot as u32) as usize;
         let Some(clump) = self.clump(original) else { return place };
         let (sphere, centre) = (self.particles.position[original], self.clumps.position[clump]);

@@ -1,5 +1,6 @@
 //! Nodes of meshes that the outside moves: where they stand and what they feel.
 
+use super::check::{StateFault, demand, demand_all, finite};
 use super::{Row, clone_in_place};
 use serde::{Deserialize, Serialize};
 
@@ -101,4 +102,15 @@ impl Nodes {
 pub(crate) fn farthest(places: &[Row], others: &[Row]) -> f64 {
     let square = |(a, b): (&Row, &Row)| (0..3).map(|axis| (a[axis] - b[axis]).powi(2)).sum::<f64>();
     places.iter().zip(others).map(square).fold(0.0, f64::max).sqrt()
+}
+
+impl Nodes {
+    /// Whether the columns have one length and finite numbers.
+    pub(super) fn check(&self) -> Result<(), StateFault> {
+        let count = self.target.len();
+        let lengths = self.columns().map(|column| column.len() == count);
+        demand_all(lengths.into_iter(), "nodes", "columns of one length")?;
+        self.columns().into_iter().try_for_each(|column| finite(column, "nodes"))?;
+        demand(self.fastest.is_finite() && self.fastest >= 0.0, "nodes", 0, "a speed of 0 or above")
+    }
 }

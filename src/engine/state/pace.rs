@@ -1,5 +1,6 @@
 //! What the automatic time step knows of the contacts.
 
+use super::check::{MOST, StateFault, demand};
 use serde::{Deserialize, Serialize};
 
 /// What was found when contacts were last looked at, and when that was.
@@ -19,4 +20,14 @@ pub struct Pace {
     pub rebuilds: u64,
     /// Largest speed of anything then \[m/s\].
     pub speed: f64,
+}
+
+impl Pace {
+    /// Whether this can be one.
+    pub(super) fn check(&self) -> Result<(), StateFault> {
+        let Self { share, packed, whole_at, until, rebuilds, speed, vibration } = *self;
+        demand((0.0..=1.0).contains(&share), "pace", 0, "a share from 0 to 1")?;
+        demand([packed, speed, until, vibration].iter().all(|it| *it >= 0.0), "pace", 1, "numbers of 0 or above")?;
+        demand(whole_at < MOST && rebuilds < MOST, "pace", 2, "a count that can be reached")
+    }
 }

@@ -1,5 +1,6 @@
 //! The particles, laid out for the loops that read them.
 
+use super::check::{FINITE, StateFault, demand, demand_all};
 use super::in_place::clone_in_place;
 use super::{Row, plain};
 use serde::{Deserialize, Serialize};
@@ -206,5 +207,82 @@ impl Particles {
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.position.is_empty()
+    }
+}
+
+impl Particles {
+    /// Whether these can be particles, each in one slot.
+    pub(super) fn check(&self) -> Result<(), StateFault> {
+        let count = self.len();
+        let expected = "one for each particle";
+        let may_be_absent = self.orientation.is_empty();
+        each_column!(self, |name, _images, column| {
+            let is_absent = may_be_absent && name == "orientation";
+            demand(column.len() == count || is_absent, name, column.len(), expected)?;
+            demand_all(column.iter().map(Entry::is_finite), name, FINITE)?;
+        });
+        demand(self.bonds.is_empty() || self.bonds.len() == self.slot.len(), "bonds", self.bonds.len(), expected)?;
+        self.check_places()?;
+        let numbers = self.id.iter().enumerate().map(|(slot, &id)| match self.owner[slot] {
+            IMAGE => self
+                .slot
+                .get(id as usize)
+                .is_some_and(|&slot| self.owner.get(slot as usize).is_some_and(|&it| it != IMAGE)),
+            _ => self.slot.get(id as usize) == Some(&(slot as u32)),
+        });
+        demand_all(numbers, "id", "each particle in one slot")?;
+        self.check_energy()
+    }
+
+    /// Whether the kinetic energy of all is a number: a spin of 1e300 rad/s is one, its energy is none.
+    pub(super) fn check_energy(&self) -> Result<(), StateFault> {
+        let energy = |row: &Row| row[3] * (row[0] * row[0] + row[1] * row[1] + row[2] * row[2]);
+        let mut sum = 0.0;
+        for (rows, part) in [(&self.velocity, "velocity"), (&self.angular_velocity, "angular_velocity")] {
+            demand_all(
+                rows.iter().map(|row| {
+                    sum += energy(row);
+                    sum.is_finite()
+                }),
+                part,
+                "a kinetic energy that is a number",
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Whether places that no particle has are marked as such, and those of the later ones can be taken again.
+    pub(super) fn check_places(&self) -> Result<(), StateFault> {
+        let there = self.slot.iter().filter(|slot| **slot != GONE).count();
+        demand(there + self.images() == self.len(), "slot", there, "a slot of each particle, and of no other")?;
+        demand(
+            self.numbers.len() <= self.slot.len(),
+            "numbers",
+            self.numbers.len(),
+            "one for each particle that came",
+        )?;
+        let own = self.slot.len() - self.numbers.len();
+        let mut free = self.free.clone();
+        free.sort_unstable();
+        let empty = (own..self.slot.len()).filter(|&index| self.slot[index] == GONE).map(|index| index as u32);
+        demand(free.into_iter().eq(empty), "free", 0, "the places that are free, each once")
+    }
+
+    /// Whether they are these particles somewhere else. Both have been checked.
+    pub(super) fn check_same(&self, other: &Self) -> Result<(), StateFault> {
+        let expected = "one for each of the scene's particles";
+        let own = |of: &Self| of.len() - of.images();
+        demand(own(self) == own(other), "particles", own(self), expected)?;
+        demand(self.bonds.len() == other.bonds.len(), "bonds", self.bonds.len(), expected)?;
+        let same = |slot: usize| {
+            let there = other.slot[self.id[slot] as usize] as usize;
+            let constants = |of: &Self, at: usize| {
+                [of.position[at][3], of.velocity[at][3], of.angular_velocity[at][3]].map(f64::to_bits)
+            };
+            constants(self, slot) == constants(other, there)
+                && self.material[slot] == other.material[there]
+                && [other.owner[there], IMAGE].contains(&self.owner[slot])
+        };
+        demand_all((0..self.len()).map(same), "particles", "the scene's radius, mass, inertia, material and group")
     }
 }

@@ -2,6 +2,7 @@
 
 use super::row::{At, COUNT, Each, OUTPUT, Present, Row, count};
 use crate::base::geometry::lattice::STRAIN_PLACES;
+use crate::engine::averages::lacey_index;
 use crate::engine::simulation::Simulation;
 use crate::interface::{Findings, Quantity, Value};
 use crate::scene::{GridOutput, Scene};
@@ -89,6 +90,20 @@ pub(super) static OF_GRIDS: [Row; 8] = [
         ..COUNT
     },
 ];
+
+/// Variables of a grid as a whole.
+pub(super) static OF_WHOLE_GRIDS: [Row; 1] = [Row {
+    name: "mixing_index",
+    each: Each::GridSet,
+    description: "Lacey's index of how far the particles of the set {axis} are mixed with the others over the cells of {owner}: 0 \
+                  apart, about 1 at random; 0 where cells cannot tell",
+    exists: |scene, at| tells(scene, at, GridOutput::MixingIndex),
+    read: |now, at| {
+        let counts = now.findings.of_cells(now.simulation, at.place()).counts(now.simulation);
+        Value::Real(lacey_index(counts.iter().map(|cell| [cell.of_set[at.axis()], cell.all])))
+    },
+    ..OUTPUT
+}];
 
 /// Whether a grid tells this of its cells.
 fn tells(scene: &Scene, at: At, output: GridOutput) -> bool {

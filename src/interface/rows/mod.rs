@@ -24,8 +24,8 @@ use boundaries::{OF_BOUNDARIES, OF_NODES};
 use cell::OF_CELLS;
 use exchange::{OF_DOMAIN, OF_INSERTIONS, OF_METERS, OF_OUTLETS};
 use fluid::{OF_FLUID, OF_FLUID_CELLS};
-use grids::OF_GRIDS;
 pub use grids::{Field, fields};
+use grids::{OF_GRIDS, OF_WHOLE_GRIDS};
 use heat::{OF_HEAT, OF_HEATED, OF_HEATED_NODES};
 use probes::OF_PROBES;
 use regions::OF_REGIONS;
@@ -93,6 +93,7 @@ pub(super) fn variables(scene: &Scene) -> Vec<Variable> {
         .chain(each(&OF_FLUID, usize::from(scene.fluid.is_some())))
         .chain(cells_of_fluid)
         .chain(each(&OF_REGIONS, scene.regions.len()))
+        .chain(each(&OF_WHOLE_GRIDS, scene.grids.len()))
         .chain(of_cells)
         .chain(exchange)
         .chain(of_scene)
@@ -111,6 +112,7 @@ pub(super) fn all() -> impl Iterator<Item = &'static Row> {
         .chain(&OF_NODES)
         .chain(&OF_HEATED_NODES)
         .chain(&OF_REGIONS)
+        .chain(&OF_WHOLE_GRIDS)
         .chain(&OF_GRIDS)
         .chain(exchange);
     of_parts.chain(&OF_FLUID).chain(&OF_FLUID_CELLS).chain(&OF_CELLS).chain(&OF_SCENE).chain(&OF_LOSSES).chain(&OF_HEAT)
@@ -143,8 +145,10 @@ impl Source {
             Each::Fluid | Each::FluidAxis | Each::FluidCell | Each::FluidCellAxis => {
                 scene.fluid.as_ref().map_or("", |fluid| &fluid.name)
             }
-            Each::Region | Each::RegionAxis | Each::Component => &scene.regions[self.at.place()].name,
-            Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => &scene.grids[self.at.place()].name,
+            Each::Region | Each::RegionAxis | Each::Component | Each::RegionSet => &scene.regions[self.at.place()].name,
+            Each::GridSet | Each::Cell | Each::CellAxis | Each::CellComponent | Each::CellSet => {
+                &scene.grids[self.at.place()].name
+            }
             Each::Insertion => &scene.insertions[self.at.place()].name,
             Each::Outlet => &scene.outlets[self.at.place()].name,
             Each::Meter => &scene.meters[self.at.place()].name,

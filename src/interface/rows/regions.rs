@@ -1,6 +1,6 @@
 //! Variables of each region.
 
-use super::row::{Each, OUTPUT, Row};
+use super::row::{COUNT, Each, OUTPUT, Row, count};
 use crate::base::geometry::lattice::STRAIN_PLACES;
 use crate::interface::{Quantity, Value};
 
@@ -8,7 +8,7 @@ use crate::interface::{Quantity, Value};
 pub(super) const OF_REGION: Row = Row { each: Each::Region, ..OUTPUT };
 
 /// Variables of each region.
-pub(super) static OF_REGIONS: [Row; 7] = [
+pub(super) static OF_REGIONS: [Row; 9] = [
     Row {
         name: "stress",
         each: Each::Component,
@@ -58,6 +58,20 @@ pub(super) static OF_REGIONS: [Row; 7] = [
         minimum: Some(0.0),
         read: |now, at| Value::Real(now.content(at).mass),
         ..OF_REGION
+    },
+    Row {
+        name: "count",
+        each: Each::Region,
+        description: "number of particles whose centre is in {region}, a clump as one",
+        read: |now, at| count(now.findings.counts(now.simulation, at.place()).all),
+        ..COUNT
+    },
+    Row {
+        name: "count_by_set",
+        each: Each::RegionSet,
+        description: "number of particles of the set {axis} whose centre is in {region}, a clump as one",
+        read: |now, at| count(now.findings.counts(now.simulation, at.place()).of_set[at.axis()]),
+        ..COUNT
     },
     Row {
         name: "velocity",

@@ -55,6 +55,10 @@ pub(in crate::interface) enum Each {
     RegionAxis,
     /// One for each region and component of a symmetric tensor: `<region>.<name>.<component>`.
     Component,
+    /// One for each region and set of particles: `<region>.<name>.<set>`.
+    RegionSet,
+    /// One for each grid and set of particles: `<grid>.<name>.<set>`.
+    GridSet,
     /// One for each cell of a grid: `<grid>.cell[<number>].<name>`.
     Cell,
     /// One for each cell of a grid and axis: `<grid>.cell[<number>].<name>.<axis>`.
@@ -79,7 +83,7 @@ impl Each {
     /// What tells the variables of a boundary, a region or a cell of a grid apart; one empty name where there is one.
     pub(super) fn names(self, scene: &Scene) -> Vec<&str> {
         match self {
-            Self::CellSet => scene.sets.iter().map(String::as_str).collect(),
+            Self::RegionSet | Self::GridSet | Self::CellSet => scene.sets.iter().map(String::as_str).collect(),
             _ => self.fixed_names().to_vec(),
         }
     }
@@ -109,6 +113,8 @@ impl Each {
             | Self::NodeScalar
             | Self::Region
             | Self::Cell
+            | Self::RegionSet
+            | Self::GridSet
             | Self::CellSet
             | Self::Insertion
             | Self::Outlet

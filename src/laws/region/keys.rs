@@ -1,24 +1,24 @@
 //! `[region.<name>]` as a scene writes it.
 
 use super::{Cuboid, Cylinder, Region, Solid};
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::quantity::{Corners, Positive, Triple};
 use crate::laws::surface::{Files, mesh};
 use serde::Deserialize;
 
-/// `[region.<name>]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// Corners of a box \[m\].
-    #[serde(rename = "box")]
-    corners: Option<Corners>,
-    /// A cylinder.
-    cylinder: Option<CylinderKeys>,
-    /// The inside of a closed mesh.
-    mesh: Option<mesh::Keys>,
-    /// Name of the boundary with which it is displaced.
-    pub(crate) follows: Option<String>,
+keys! {
+    /// `[region.<name>]`
+    #[derive(Debug)]
+    pub(crate) struct Keys {
+        /// Lower and upper corner \[m\].
+        r#box: Option<Corners> = "one of three",
+        /// `{ from = [x, y, z], to = [x, y, z], radius = r }`: between two points \[m\].
+        cylinder: Option<CylinderKeys> = "one of three",
+        /// `{ file, joined, scale, rotation, offset }`: the inside of a closed surface of triangles, with keys as in a boundary.
+        mesh: Option<mesh::Keys> = "one of three",
+        /// Name of a boundary: the region has its displacement; it does not turn with it.
+        pub(crate) follows: Option<String> = "it stays",
+    }
 }
 
 /// `cylinder = { from, to, radius }`
@@ -36,8 +36,7 @@ struct CylinderKeys {
 impl Keys {
     /// The keys of the shapes that are written.
     fn written(&self) -> Vec<&'static str> {
-        let all =
-            [("box", self.corners.is_some()), ("cylinder", self.cylinder.is_some()), ("mesh", self.mesh.is_some())];
+        let all = [("box", self.r#box.is_some()), ("cylinder", self.cylinder.is_some()), ("mesh", self.mesh.is_some())];
         all.into_iter().filter(|(_, written)| *written).map(|(key, _)| key).collect()
     }
 
@@ -54,7 +53,7 @@ impl Keys {
             around.report("", mistake);
             return None;
         };
-        let shape = if let Some(Corners(corners)) = self.corners {
+        let shape = if let Some(Corners(corners)) = self.r#box {
             Region::Box(Cuboid { corners })
         } else if let Some(CylinderKeys { from: Triple(from), to: Triple(to), radius }) = self.cylinder {
             let Some(cylinder) = Cylinder::new(from, to, radius.get()) else {

@@ -1,9 +1,9 @@
 //! `particles`: a group of particles that moves as one rigid body.
 
 use super::{Shape, ShapeContext, ShapeKeys, Surface};
+use crate::base::document::keys;
 use crate::base::quantity::Corners;
 use crate::base::words::counted;
-use serde::Deserialize;
 
 /// A group of particles that moves as one rigid body. Its particles touch others as all particles do; its load is the sum
 /// of theirs.
@@ -41,17 +41,17 @@ impl ShapeKeys for Selection {
     }
 }
 
-/// Which particles: those for which everything given here holds.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Selection {
-    /// Of this set.
-    pub(crate) set: Option<String>,
-    /// Of these sets.
-    pub(crate) sets: Option<Vec<String>>,
-    /// Centre in this box, its faces included \[m\].
-    #[serde(rename = "box")]
-    pub(crate) corners: Option<Corners>,
-    /// With these numbers.
-    pub(crate) ids: Option<Vec<u32>>,
+keys! {
+    /// Which particles: those for which everything given here holds.
+    #[derive(Clone, Debug, Default)]
+    pub struct Selection {
+        /// Name of a set.
+        pub(crate) set: Option<String> = "all",
+        /// Names of sets.
+        pub(crate) sets: Option<Vec<String>> = "all",
+        /// Lower and upper corner of a box that holds the centres, faces included \[m\].
+        pub(crate) r#box: Option<Corners> = "all",
+        /// Numbers of particles.
+        pub(crate) ids: Option<Vec<u32>> = "all",
+    }
 }

@@ -12,6 +12,9 @@ use std::time::{Duration, Instant};
 /// Wall time of the trial, unless the first look and one more take longer.
 const PATIENCE: Duration = Duration::from_millis(1000);
 
+/// Wall time of an output that is long beside that of touching its memory \[s\].
+const LONG: f64 = 0.1;
+
 /// Wall time between two looks at the clock.
 const BETWEEN_LOOKS: f64 = 0.02;
 
@@ -135,13 +138,17 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
     trial
 }
 
-/// What one output costs: the least of three, since the first one finds its memory cold.
+/// What one output costs: the least of three, since the first one finds its memory cold; of one where that takes long.
 fn price(mut make: impl FnMut() -> Result<f64, EncodeError>) -> Result<OutputCost, EncodeError> {
     let mut price = OutputCost { time: f64::INFINITY, bytes: 0.0 };
     for _ in 0..3 {
         let begun = Instant::now();
         price.bytes = make()?;
-        price.time = price.time.min(begun.elapsed().as_secs_f64());
+        let took = begun.elapsed().as_secs_f64();
+        price.time = price.time.min(took);
+        if took > LONG {
+            break;
+        }
     }
     Ok(price)
 }

@@ -129,7 +129,11 @@ pub enum ResumeError {
     /// It is of another scene.
     #[error(
         "{}: is a checkpoint of {scene} at t = {time} s, written by {program}, and that scene differs from this one in {differs}; \
-         --from takes it along into another scene", path.display(), time = plain(*time))]
+         {way}", path.display(), time = plain(*time), way = if *goes_on {
+            "it goes on in the same way: give the scene as it was, and --end for another end"
+        } else {
+            "--from takes it along into another scene"
+        })]
     OtherScene {
         /// The file.
         path: PathBuf,
@@ -141,6 +145,8 @@ pub enum ResumeError {
         time: f64,
         /// What differs.
         differs: String,
+        /// Whether it goes on as this one does: its end and its outputs differ at most.
+        goes_on: bool,
     },
     /// It is of a run with other inputs.
     #[error(

@@ -171,14 +171,32 @@ pub enum Refusal {
     #[error(transparent)]
     Resume(#[from] ResumeError),
     /// The run ends before it begins.
-    #[error("{scene}, [run] end: expected a time after t = {time} s, where the checkpoint stands, found {end} s", time = plain(*time))]
+    #[error("{scene}, {key}: expected a time after t = {time} s, where the checkpoint stands, found {end} s", time = plain(*time))]
     Ended {
         /// File name of the scene.
         scene: String,
+        /// What says the end.
+        key: &'static str,
         /// End of the run \[s\].
         end: f64,
         /// Time of the checkpoint \[s\].
         time: f64,
+    },
+    /// Nothing says in which communication steps a run went.
+    #[error(
+        "{scene}: expected [run] end or an interval in [output], which say in which communication steps a run goes on, found neither"
+    )]
+    NoInterval {
+        /// File name of the scene.
+        scene: String,
+    },
+    /// The table of inputs ends before the run.
+    #[error("--end: expected a time up to t = {table_end} s, where the table of --inputs ends, found {end} s")]
+    BeyondInputs {
+        /// End of the run \[s\].
+        end: f64,
+        /// End of the table \[s\].
+        table_end: f64,
     },
     /// The table of inputs does not fit.
     #[error(transparent)]

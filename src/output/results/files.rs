@@ -273,6 +273,7 @@ impl Checkpoint {
             program: self.scene.program.clone(),
             time: self.scene.time,
             differs: self.scene.differing_parts(scene),
+            goes_on: self.scene.goes_on_as(scene),
         }
     }
 

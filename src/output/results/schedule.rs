@@ -33,6 +33,9 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Powers of two among which one is looked for that holds a whole number of intervals.
 const MOST_DOUBLINGS: u32 = 31;
 
+/// A communication step this part of a time step off a whole number of steps has that number.
+const FITTING: f64 = 1e-6;
+
 /// A saved time may be off by this part of the shortest interval.
 const NEAR: f64 = 1e-3;
 
@@ -145,17 +148,23 @@ impl Schedule {
     pub(crate) fn new(scene: &Scene, scene_name: &str, end: f64) -> Result<Self, Refusal> {
         let output = &scene.output;
         let intervals = [output.history_interval, output.frame_interval, output.checkpoint_interval];
-        for (interval, (key, what, most)) in intervals.into_iter().zip(MOST) {
-            let Some(interval) = interval else { continue };
+        let [history, frames, checkpoints] = intervals.map(|interval| interval.map(Series::every));
+        let named = history.or(frames).or(checkpoints).is_some();
+        let plain = (!named).then(|| Series::every(end / DEFAULT_STEPS));
+        Self { history, frames, checkpoints, plain, end }.until(end, scene, scene_name)
+    }
+
+    /// The same to another end \[s\], with the communication steps that a run to its own end has.
+    pub(crate) fn until(self, end: f64, scene: &Scene, scene_name: &str) -> Result<Self, Refusal> {
+        let kinds = [self.history, self.frames, self.checkpoints];
+        for (series, (key, what, most)) in kinds.into_iter().zip(MOST) {
+            let Some(Series { interval, .. }) = series else { continue };
             let count = end / interval;
             if count > most * (1.0 + SAME) {
                 return Err(Refusal::Counts { scene: scene_name.to_owned(), key, interval, count, what, end, most });
             }
         }
-        let [history, frames, checkpoints] = intervals.map(|interval| interval.map(Series::every));
-        let named = history.or(frames).or(checkpoints).is_some();
-        let plain = (!named).then(|| Series::every(end / DEFAULT_STEPS));
-        let schedule = Self { history, frames, checkpoints, plain, end };
+        let schedule = Self { end, ..self };
         if let Step::Given(step) = scene.run.step {
             schedule.check_step(scene_name, step)?;
         }
@@ -237,6 +246,25 @@ impl Schedule {
             .min_by(|a, b| (a - saved).abs().total_cmp(&(b - saved).abs()))
             .unwrap_or(self.end);
         if (nearest - saved).abs() <= NEAR * shortest { Ok(nearest) } else { Err(nearest) }
+    }
+
+    /// Whether the scene names an interval.
+    pub(crate) fn has_intervals(&self) -> bool {
+        self.plain.is_none()
+    }
+
+    /// By how much the clock may differ from a communication point at this time in steps of this length \[s\]: steps that fit an
+    /// interval but for rounding of the user's numbers are not divided.
+    pub(crate) fn drift(&self, time: f64, step: f64) -> f64 {
+        let shortest = self.series().map(|series| series.interval).fold(self.end, f64::min);
+        SAME * shortest + ROUNDING * time + FITTING * step * (time / shortest)
+    }
+
+    /// Whether a row of the history is due at the point at `time` \[s\].
+    pub(crate) fn has_row(&self, time: f64) -> bool {
+        let is_regular =
+            |series: Series| (series.time(series.last(time, series.slack(time))) - time).abs() <= series.slack(time);
+        time >= self.end || self.history.map_or(time == 0.0, is_regular)
     }
 
     /// Times of the frames up to and with the point at `time` \[s\].

@@ -1,6 +1,7 @@
 //! A run of a scene without a master, from one communication point to the next, and what it writes there.
 
 mod beginning;
+mod ends;
 mod frame_writer;
 mod inputs;
 pub(crate) mod jobs;
@@ -30,6 +31,7 @@ use crate::output::results::writer::{Writer, opened};
 use crate::output::results::{Failure, OutputError, Refusal, ResumeError};
 use crate::output::results::{HISTOGRAMS, SUMMARY};
 use beginning::{First, Origin, checkpoint, claim};
+use ends::Ends;
 use inputs::Inputs;
 use jobs::{frame, row};
 use meter::Meter;
@@ -112,9 +114,8 @@ impl<'a> Session<'a> {
         chosen.map_err(|source| Refusal::Chosen { scene: scene_name(), source: Box::new(source) })?;
         let inputs = order.inputs.map(|path| Inputs::read(path, &interface)).transpose().map_err(Refusal::from)?;
         let digest = inputs.as_ref().map(|inputs| inputs.digest);
-        let told = inputs.as_ref().map(Inputs::end).into_iter().chain(order.scene.run.end).reduce(f64::min);
-        let end = told.filter(|end| *end > 0.0).ok_or_else(|| Refusal::NoEnd { scene: scene_name() })?;
-        let schedule = Schedule::new(order.scene, order.scene_name, end)?;
+        let ends = Ends::of(&order, inputs.as_ref())?;
+        let (end, schedule) = (ends.end, ends.schedule(&order)?);
         let early_lock = if order.folder.exists() { Some(claim(&order)?) } else { None };
         let mut left_behind = Vec::new();
         let (simulation, time, origin) = match checkpoint(&order)? {
@@ -123,19 +124,15 @@ impl<'a> Session<'a> {
                 let taken = Checkpoint::read(&path)?.taken_over(order.scene).map_err(not)?;
                 left_behind = taken.left_behind;
                 let saved = taken.simulation.time();
-                if saved >= end * (1.0 - f64::EPSILON) {
-                    return Err(Refusal::Ended { scene: scene_name(), end, time: saved }.into());
-                }
+                order.expect_before(saved, end)?;
                 let time = schedule.point_of(saved).unwrap_or(saved);
                 let goes_on = taken.goes_on;
                 (taken.simulation, time, if time > 0.0 { Origin::TakenOver { goes_on } } else { Origin::Anew })
             }
             Some((path, origin)) => {
                 let state = Checkpoint::read(&path)?.state_of_run(order.scene, digest)?;
-                let (saved, underway) = (state.clock.time, state.underway);
-                let point = underway.map_or(saved, |underway| saved - underway.elapsed());
-                let time = schedule.point_of(point).map_err(|nearest| ResumeError::Between { time: saved, nearest })?;
-                let origin = if time > 0.0 || underway.is_some() { origin } else { Origin::Anew };
+                let time = ends.going_on(&order, &schedule, &state)?;
+                let origin = if time > 0.0 || state.underway.is_some() { origin } else { Origin::Anew };
                 let resumed = Simulation::resume(Arc::clone(order.scene), state);
                 let source =
                     |fault: crate::engine::state::StateFault| ResumeError::Snapshot { path, source: fault.into() };

@@ -1,5 +1,6 @@
 //! What is to be run, where from and where to.
 
+use crate::output::results::Refusal;
 use crate::scene::Scene;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -38,12 +39,25 @@ pub struct RunOrder<'a> {
     pub folder: &'a Path,
     /// Where it begins.
     pub start: &'a Start,
+    /// When it ends, instead of the scene's end \[s\].
+    pub end: Option<f64>,
     /// What happens to the results of an earlier run.
     pub earlier_results: EarlierResults,
     /// A table of the driven boundaries' displacements over time; without one they stay where they are.
     pub inputs: Option<&'a Path>,
     /// Set from outside to stop after the present time step, or within a tenth of a second.
     pub stop: &'a AtomicBool,
+}
+
+impl RunOrder<'_> {
+    /// Refuses to go on from a time at or after the end \[s\].
+    pub(super) fn expect_before(&self, time: f64, end: f64) -> Result<(), Refusal> {
+        if time < end * (1.0 - f64::EPSILON) {
+            return Ok(());
+        }
+        let key = if self.end.is_some() { "--end" } else { "[run] end" };
+        Err(Refusal::Ended { scene: self.scene_name.to_owned(), key, end, time })
+    }
 }
 
 /// How far a run is.

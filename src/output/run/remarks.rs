@@ -92,9 +92,9 @@ fn dry(simulation: &Simulation) -> Option<String> {
     let (scene, state) = (simulation.scene(), simulation.state());
     let fluid = scene.fluid.as_ref()?;
     let grid = &scene.grids[fluid.grid?];
-    let all = scene.particles.len();
+    let (all, centres) = (scene.particles.len(), grid.shape.centres());
     let slots = state.particles.slots();
-    let outside = slots.filter(|&slot| !grid.shape.holds(Vector::from(state.particles.position[slot]))).count();
+    let outside = slots.filter(|&slot| !centres.holds(Vector::from(state.particles.position[slot]))).count();
     (outside > 0).then(|| {
         format!(
             "[fluid.{}] grid: the centres of {outside} of {all} particles are outside of [grid.{}]; no fluid acts there",

@@ -2,7 +2,7 @@
 
 use super::ClumpShape;
 use super::union::moments;
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::geometry::Quaternion;
 use crate::base::geometry::principal::principal;
 use crate::base::number::Vector;
@@ -16,24 +16,25 @@ use std::fmt;
 /// Most spheres that a clump may have.
 const MOST_SPHERES: usize = 256;
 
-/// `[clump.<name>]`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene) struct ClumpKeys {
-    /// Its spheres, in its own frame.
-    spheres: Option<Vec<SphereKeys>>,
-    /// A file of them.
-    pub(in crate::scene) file: Option<String>,
-    /// Material where a set names none.
-    pub(in crate::scene) material: Option<String>,
-    /// Density where a set gives none \[kg/m³\].
-    pub(in crate::scene) density: Option<Positive>,
-    /// Mass \[kg\].
-    mass: Option<Positive>,
-    /// Inertia about the mass centre \[kg m²\].
-    inertia: Option<Inertia>,
-    /// Mass centre \[m\].
-    centre: Option<Triple>,
+keys! {
+    /// `[clump.<name>]`
+    #[derive(Clone, Debug)]
+    pub(in crate::scene) struct ClumpKeys {
+        /// `[{ position, radius }, ..]` in a frame of its own \[m\]; they may overlap.
+        spheres: Option<Vec<SphereKeys>> = "this or `file`",
+        /// A file of them with the columns `x`, `y`, `z`, `radius`, or a `.multisphere` of LIGGGHTS (lines x y z radius).
+        pub(in crate::scene) file: Option<String> = "this or `spheres`",
+        /// Material where the set names none.
+        pub(in crate::scene) material: Option<String> = "none",
+        /// Density where the set gives none \[kg/m³\].
+        pub(in crate::scene) density: Option<Positive> = "that of the material",
+        /// Mass at `scale = 1` \[kg\].
+        mass: Option<Positive> = "density times the volume of the union",
+        /// Inertia about the mass centre \[kg m²\]: three moments, or three rows; with `mass`.
+        inertia: Option<Inertia> = "of the union",
+        /// Mass centre in its frame \[m\].
+        centre: Option<Triple> = "of the union",
+    }
 }
 
 /// A sphere of a clump.

@@ -1,11 +1,11 @@
 //! `[insertion.<name>]`, `[outlet.<name>]`, `[flow_meter.<name>]` as a scene writes them.
 
 use super::Polygon;
-use super::size_keys::SizesKeys;
-use crate::base::document::Mistake;
+use crate::base::document::{Mistake, keys};
 use crate::base::quantity::{NonNegative, Positive, Triple};
 use crate::laws::surface::direction;
 use crate::scene::clump::OrientationKey;
+use crate::scene::sizes::SizesKeys;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -40,31 +40,33 @@ pub enum Amount {
     Mass(f64),
 }
 
-/// `[insertion.<name>]`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct InsertionKeys {
-    /// What it says of declared columns, each read by its name.
-    #[serde(skip)]
-    pub(crate) columns: BTreeMap<&'static str, f64>,
-    /// Name of the region in which all that comes lies whole.
-    pub(crate) region: String,
-    /// Name of the material; absent: that which the clumps name.
-    pub(crate) material: Option<String>,
-    /// What comes, and how radii are distributed.
-    pub(crate) sizes: SizesKeys,
-    /// How clumps are turned; absent: at random.
-    pub(crate) orientation: Option<OrientationKey>,
-    /// Mass in each second \[kg/s\].
-    mass_rate: Option<NonNegative>,
-    /// Number in each second \[1/s\].
-    count_rate: Option<NonNegative>,
-    /// Mass in all \[kg\].
-    mass: Option<Positive>,
-    /// Velocity \[m/s\]; absent: at rest.
-    velocity: Option<Triple>,
-    /// By how much each component of the velocity differs from that at most, all values equally likely \[m/s\].
-    scatter: Option<NonNegative>,
+keys! {
+    /// `[insertion.<name>]`
+    #[derive(Clone, Debug)]
+    pub(crate) struct InsertionKeys {
+        /// Name of a `[region.<name>]`: every new sphere, or the one that bounds a clump, lies whole inside it, all places equally likely.
+        pub(crate) region: String = "required",
+        /// Name of a material; its density is that of the spheres.
+        pub(crate) material: Option<String> = "that of the clumps",
+        /// What comes, and how radii are distributed, see below \[m\].
+        pub(crate) sizes: SizesKeys = "required",
+        /// How clumps are turned, as in a set.
+        pub(crate) orientation: Option<OrientationKey> = "`\"random\"`",
+        /// Mass that comes in each second \[kg/s\].
+        mass_rate: Option<NonNegative> = "one of these three",
+        /// Number, of clumps as such, that comes in each second \[1/s\].
+        count_rate: Option<NonNegative> = "one of these three",
+        /// Mass that comes in all, as soon as there is room \[kg\].
+        mass: Option<Positive> = "one of these three",
+        /// Velocity with which a sphere begins \[m/s\].
+        velocity: Option<Triple> = "0",
+        /// By how much each component of it differs at most, all values equally likely \[m/s\].
+        scatter: Option<NonNegative> = "0",
+    } beside {
+        /// What it says of declared columns, each read by its name.
+        #[serde(skip)]
+        pub(crate) columns: BTreeMap<&'static str, f64>,
+    }
 }
 
 impl InsertionKeys {
@@ -89,14 +91,16 @@ impl InsertionKeys {
     }
 }
 
-/// `[outlet.<name>]`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct OutletKeys {
-    /// Name of the region whose particles are taken away.
-    pub(crate) region: Option<String>,
-    /// A plane beyond which they are.
-    pub(crate) beyond: Option<BeyondKeys>,
+keys! {
+    /// `[outlet.<name>]`
+    #[derive(Clone, Debug)]
+    pub(crate) struct OutletKeys {
+        /// Name of a `[region.<name>]`.
+        pub(crate) region: Option<String> = "one of the two",
+        /// `{ point = [x, y, z], normal = [x, y, z] }`: behind this plane \[m\]; the normal points to what stays. A name: behind this
+        /// boundary, a plane that does not turn; what gets through it goes, instead of stopping the run.
+        pub(crate) beyond: Option<BeyondKeys> = "one of the two",
+    }
 }
 
 /// `beyond = "<boundary>"`, or a plane.
@@ -150,12 +154,13 @@ impl PlaneKeys {
     }
 }
 
-/// `[flow_meter.<name>]`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct MeterKeys {
-    /// Corners, counter-clockwise as seen from where the flow goes \[m\].
-    polygon: Vec<Triple>,
+keys! {
+    /// `[flow_meter.<name>]`
+    #[derive(Clone, Debug)]
+    pub(crate) struct MeterKeys {
+        /// Three or more corners of a plane polygon, counter-clockwise as seen from its front \[m\].
+        polygon: Vec<Triple> = "required",
+    }
 }
 
 impl MeterKeys {

@@ -1,7 +1,8 @@
 //! What an insertion lets come: spheres, or clumps of a shape.
 
-use super::Sizes;
+use crate::base::document::Mistake;
 use crate::base::geometry::Quaternion;
+use crate::scene::sizes::{Radii, Sizes, SizesKeys};
 use crate::scene::{Clump, ClumpShape, ParticleShape};
 
 /// Spheres, or clumps of one shape, of which an insertion lets some come.
@@ -79,6 +80,42 @@ impl Kind {
         let clump = self.clump.as_ref()?;
         let bounding = clump.shape.bounding_radius();
         self.sizes.hold(scale, bounding).then(|| clump.scaled(scale, ([0.0; 3], Quaternion::identity()), [0.0; 3]))
+    }
+}
+
+impl SizesKeys {
+    /// What comes: spheres of this density \[kg/m³\] or, where clumps are named, these; otherwise what is wrong.
+    pub(crate) fn kinds(&self, clumps: Vec<InsertedClump>, density: f64) -> Result<Vec<Kind>, Mistake> {
+        let kind = |clump, sizes| Kind { clump, density, sizes, up_to: 1.0 };
+        let as_written = !self.has_sizes();
+        let own = |clump: &InsertedClump| Sizes::Fixed(clump.shape.bounding_radius());
+        if clumps.len() > 1 {
+            let sizes = match &self.radius {
+                Some(Radii(radii)) if radii.len() > 1 && radii.len() != clumps.len() => {
+                    let found = format!("{} radii and {} clumps", radii.len(), clumps.len());
+                    let expected = "a radius for all, or for each clump".to_owned();
+                    return Err(Mistake::Unexpected { found, expected });
+                }
+                Some(Radii(radii)) => radii.iter().cycle().take(clumps.len()).map(|it| Sizes::Fixed(*it)).collect(),
+                None if as_written => clumps.iter().map(own).collect(),
+                None => vec![self.sizes()?; clumps.len()],
+            };
+            let kinds = clumps.into_iter().zip(sizes).map(|(clump, sizes)| kind(Some(clump), sizes));
+            return self.shared(kinds.collect());
+        }
+        let Some(clump) = clumps.into_iter().next() else { return Ok(vec![kind(None, self.sizes()?)]) };
+        let sizes = if as_written && !self.has_shares() { own(&clump) } else { self.sizes()? };
+        Ok(vec![kind(Some(clump), sizes)])
+    }
+
+    /// Kinds with their shares.
+    fn shared(&self, kinds: Vec<Kind>) -> Result<Vec<Kind>, Mistake> {
+        // Sizes that all have say nothing of the shares: any radius does.
+        let mass = |kind: &Kind| kind.mass(kind.sizes.bounds()[0]);
+        let masses: Vec<f64> = kinds.iter().map(mass).collect();
+        let shares = self.shares(&masses, ["clump", "clumps"])?;
+        let with_share = kinds.into_iter().zip(shares).filter_map(|(kind, up_to)| Some(Kind { up_to: up_to?, ..kind }));
+        Ok(with_share.collect())
     }
 }
 

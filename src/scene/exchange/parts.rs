@@ -204,7 +204,7 @@ impl Insertion {
         };
         let clumps = clumps.iter().map(of).collect();
         let kinds = keys.sizes.kinds(clumps, known.materials[material].1);
-        let kinds = kinds.map_err(|(key, mistake)| refuse(key, mistake)).ok()?;
+        let kinds = kinds.map_err(|mistake| refuse("sizes", mistake)).ok()?;
         if let (Some(_), false) = (keys.orientation, kinds.iter().any(|kind| kind.clump.is_some())) {
             let (what, expected) = ("spheres come".to_owned(), "an orientation for clumps only".to_owned());
             refuse("orientation", Mistake::InvalidCombination { what, expected });

@@ -5,7 +5,7 @@
 //! walls. Kin of this are the methods of Jodrey and Tory (Phys. Rev. A 32, 1985, 2347) and of Mościński and Bargieł
 //! (Mol. Simul. 3, 1989, 201); the shaking is annealing by decreasing amplitude.
 
-use super::generator::uniform;
+use super::radii::Draw;
 use super::region::Region;
 use super::relaxation::{Crowd, MARGIN, Overlaps};
 use super::{MOST, Sphere};
@@ -30,7 +30,7 @@ const HOPELESS: f64 = 0.08;
 pub(super) fn dense(
     region: &Region,
     solid_fraction: f64,
-    radii: [f64; 2],
+    radii: &mut Draw,
     random: &mut ChaCha8Rng,
     tell: &mut dyn FnMut(usize, f64),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
@@ -38,12 +38,13 @@ pub(super) fn dense(
         let (found, expected) = (format!("{solid_fraction:?}"), format!("a number above 0 and at most {DENSEST}"));
         return Err(("packing.solid_fraction", Mistake::Unexpected { found, expected }));
     }
+    let key = radii.key();
     let radii = drawn(region.volume() * solid_fraction, radii, random)?;
     let width = region.width();
     let largest = radii.iter().copied().fold(0.0, f64::max);
     if 2.0 * largest * (1.0 + MARGIN) > width {
         let (found, expected) = (format!("a region {width:?} m wide"), "room for the largest sphere".to_owned());
-        return Err(("packing.radius", Mistake::Unexpected { found, expected }));
+        return Err((key, Mistake::Unexpected { found, expected }));
     }
     let mut crowd = Crowd::scattered(region, &radii, random, tell);
     parted(&mut crowd, radii.len(), random).map_err(|left| {
@@ -79,16 +80,17 @@ fn parted(crowd: &mut Crowd, count: usize, random: &mut ChaCha8Rng) -> Result<()
     Err(left)
 }
 
-/// Radii of an even distribution whose volumes come nearest to this sum.
-fn drawn(volume: f64, [least, most]: [f64; 2], random: &mut ChaCha8Rng) -> Result<Vec<f64>, (&'static str, Mistake)> {
+/// Radii whose volumes come nearest to this sum.
+fn drawn(volume: f64, draw: &mut Draw, random: &mut ChaCha8Rng) -> Result<Vec<f64>, (&'static str, Mistake)> {
     let of = |radius: f64| 4.0 / 3.0 * PI * radius * radius * radius;
-    if volume > MOST as f64 * of(least) {
+    let (least, key) = (draw.least(), draw.key());
+    if volume > MOST as f64 * draw.mean(of) {
         let (found, expected) = (format!("{least:?}"), format!("radii of which at most {MOST} fit"));
-        return Err(("packing.radius", Mistake::Unexpected { found, expected }));
+        return Err((key, Mistake::Unexpected { found, expected }));
     }
     let (mut radii, mut sum) = (Vec::new(), 0.0);
     loop {
-        let radius = least + (most - least) * uniform(random);
+        let radius = draw.next(random);
         if sum + 0.5 * of(radius) > volume {
             break;
         }
@@ -97,7 +99,7 @@ fn drawn(volume: f64, [least, most]: [f64; 2], random: &mut ChaCha8Rng) -> Resul
     }
     if radii.is_empty() {
         let (found, expected) = (format!("{least:?}"), "a radius at which one sphere at least fits".to_owned());
-        return Err(("packing.radius", Mistake::Unexpected { found, expected }));
+        return Err((key, Mistake::Unexpected { found, expected }));
     }
     Ok(radii)
 }
@@ -120,11 +122,12 @@ mod tests {
             radius: Positive::new(0.75).unwrap(),
         };
         PackingTable {
-            corners: None,
+            r#box: None,
             cylinder: Some(cylinder),
             count: None,
             solid_fraction: Fraction::new(solid_fraction),
-            radius: Radii([0.1, 0.166]),
+            radius: Some(Radii([0.1, 0.166])),
+            sizes: None,
         }
     }
 
@@ -163,7 +166,7 @@ mod tests {
     fn a_wide_cylinder_is_filled_as_far_as_a_box() {
         let (to, radius) = (Triple([0.0, 0.0, 0.8]), Positive::new(4.0).unwrap());
         let cylinder = CylinderTable { from: Triple([0.0; 3]), to, radius };
-        let table = PackingTable { cylinder: Some(cylinder), radius: Radii([0.1, 0.1]), ..core(0.55) };
+        let table = PackingTable { cylinder: Some(cylinder), radius: Some(Radii([0.1, 0.1])), ..core(0.55) };
         let spheres = packing(&table, None, (1, "a"), &mut |_| {}).unwrap();
         assert_eq!(spheres.len(), 5280);
         assert!(gaps(&spheres).iter().all(|gap| *gap > 0.0));

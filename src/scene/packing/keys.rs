@@ -1,28 +1,30 @@
 //! Lattices and random packings as a scene writes them.
 
+use crate::base::document::keys;
 use crate::base::quantity::{Corners, Counts, Fraction, Numbers, Positive, Triple};
+use crate::scene::sizes::SizesKeys;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use std::fmt;
 use std::num::NonZeroU32;
 
-/// `lattice = { kind, radius, ... }`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct LatticeTable {
-    /// Which order.
-    pub(crate) kind: LatticeKind,
-    /// Radius of each \[m\].
-    pub(crate) radius: Positive,
-    /// Distance of nearest centres \[m\]; absent: they touch.
-    pub(crate) spacing: Option<Positive>,
-    /// The box to fill \[m\].
-    #[serde(rename = "box")]
-    pub(crate) corners: Option<Corners>,
-    /// Centre of the first, with counts \[m\].
-    pub(crate) origin: Option<Triple>,
-    /// Cells along each axis.
-    pub(crate) counts: Option<Counts>,
+keys! {
+    /// `lattice = { kind, radius, ... }`
+    #[derive(Clone, Debug)]
+    pub(crate) struct LatticeTable {
+        /// `simple_cubic`, `body_centred_cubic`, `face_centred_cubic`, `hexagonal_close_packed`.
+        pub(crate) kind: LatticeKind = "required",
+        /// Radius of each sphere \[m\].
+        pub(crate) radius: Positive = "required",
+        /// Distance of nearest centres \[m\].
+        pub(crate) spacing: Option<Positive> = "2 `radius`: neighbours touch",
+        /// Lower and upper corner \[m\]; filled with whole spheres, the first cell at the lower corner.
+        pub(crate) r#box: Option<Corners> = "this or `counts`",
+        /// Centre of the first sphere, with `counts` \[m\].
+        pub(crate) origin: Option<Triple> = "`[0, 0, 0]`",
+        /// Cells along x, y, z, each ≥ 1.
+        pub(crate) counts: Option<Counts> = "this or `box`",
+    }
 }
 
 /// Regular orders.
@@ -39,21 +41,24 @@ pub(crate) enum LatticeKind {
     HexagonalClosePacked,
 }
 
-/// `packing = { box or cylinder, count or solid_fraction, radius }`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct PackingTable {
-    /// The box that holds every sphere whole \[m\].
-    #[serde(rename = "box")]
-    pub(crate) corners: Option<Corners>,
-    /// The cylinder that holds every sphere whole.
-    pub(crate) cylinder: Option<CylinderTable>,
-    /// How many.
-    pub(crate) count: Option<NonZeroU32>,
-    /// Volume of the spheres over that of the region; they are pushed apart until they fit.
-    pub(crate) solid_fraction: Option<Fraction>,
-    /// Radius, or least and largest \[m\].
-    pub(crate) radius: Radii,
+keys! {
+    /// `packing = { box or cylinder, count or solid_fraction, radius or sizes }`
+    #[derive(Clone, Debug)]
+    pub(crate) struct PackingTable {
+        /// Lower and upper corner of the region \[m\]; it holds every sphere whole.
+        pub(crate) r#box: Option<Corners> = "fills the [cell](#cell) through its faces",
+        /// `{ from = [x, y, z], to = [x, y, z], radius = r }`: the same between two points \[m\].
+        pub(crate) cylinder: Option<CylinderTable> = "as `box`",
+        /// Number of spheres, put at random places.
+        pub(crate) count: Option<NonZeroU32> = "this or `solid_fraction`",
+        /// Volume of the spheres over that of the region: equal spheres end at 0.74.
+        pub(crate) solid_fraction: Option<Fraction> = "this or `count`",
+        /// One radius, or `[least, largest]` of an even distribution \[m\].
+        pub(crate) radius: Option<Radii> = "this or `sizes`",
+        /// A distribution of radii, as [insertions](#insertionname) have it: sieve curve, log-normal, classes; even a few hundred spheres
+        /// have its shares.
+        pub(crate) sizes: Option<SizesKeys> = "this or `radius`",
+    }
 }
 
 /// `cylinder = { from, to, radius }`

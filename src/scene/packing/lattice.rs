@@ -35,7 +35,7 @@ pub(crate) fn lattice(table: &LatticeTable) -> Result<Vec<Sphere>, (&'static str
     let spacing = table.spacing.map_or(2.0 * radius, crate::base::quantity::Positive::get);
     let Cell { edges, places } = cell(table.kind);
     let edges = edges.map(|edge| edge * spacing);
-    let (origin, counts, bounds) = match (&table.corners, &table.counts) {
+    let (origin, counts, bounds) = match (&table.r#box, &table.counts) {
         (Some(corners), None) if table.origin.is_none() => {
             let [lower, upper] = corners.0;
             // Rounding may not cost the last layer of a box that is an exact multiple of the spacing.
@@ -50,7 +50,7 @@ pub(crate) fn lattice(table: &LatticeTable) -> Result<Vec<Sphere>, (&'static str
             return Err(("lattice.origin", Mistake::InvalidCombination { what, expected }));
         }
         _ => {
-            let found = if table.corners.is_some() { "both" } else { "neither" }.to_owned();
+            let found = if table.r#box.is_some() { "both" } else { "neither" }.to_owned();
             let expected = "one of box and counts".to_owned();
             return Err(("lattice", Mistake::Unexpected { found, expected }));
         }
@@ -100,7 +100,7 @@ mod tests {
     /// A lattice of unit spheres that touch.
     fn touching(kind: LatticeKind) -> LatticeTable {
         let radius = Positive::new(0.5).unwrap();
-        LatticeTable { kind, radius, spacing: None, corners: None, origin: None, counts: Some(Counts([3, 3, 3])) }
+        LatticeTable { kind, radius, spacing: None, r#box: None, origin: None, counts: Some(Counts([3, 3, 3])) }
     }
 
     /// Distances of each two centres near 1, for the sphere nearest to the middle.
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn a_box_is_filled_to_its_faces_and_not_beyond() {
         let corners = Some(Corners([[0.0; 3], [3.0, 2.0, 1.5]]));
-        let table = LatticeTable { corners, counts: None, ..touching(LatticeKind::SimpleCubic) };
+        let table = LatticeTable { r#box: corners, counts: None, ..touching(LatticeKind::SimpleCubic) };
         let spheres = lattice(&table).unwrap();
         assert_eq!(spheres.len(), 6);
         assert_eq!(spheres[5].0, [2.5, 1.5, 0.5]);
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn a_box_smaller_than_a_sphere_stays_empty() {
         let corners = Some(Corners([[0.0; 3], [0.9, 2.0, 2.0]]));
-        let table = LatticeTable { corners, counts: None, ..touching(LatticeKind::FaceCentredCubic) };
+        let table = LatticeTable { r#box: corners, counts: None, ..touching(LatticeKind::FaceCentredCubic) };
         assert_eq!(lattice(&table).unwrap().len(), 0);
     }
 }

@@ -5,6 +5,7 @@ pub(crate) mod generator;
 mod keys;
 mod lattice;
 pub(crate) mod overlaps;
+mod radii;
 mod random;
 mod region;
 mod relaxation;

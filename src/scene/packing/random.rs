@@ -1,8 +1,9 @@
 //! Spheres at random places of a region, none overlapping another.
 
 use super::dense::dense;
-use super::generator::{generator, uniform};
+use super::generator::generator;
 use super::keys::PackingTable;
+use super::radii::Draw;
 use super::region::Region;
 use super::{PackingProgress, Sphere, too_many};
 use crate::base::document::Mistake;
@@ -75,15 +76,16 @@ pub(crate) fn packing(
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
     let region = Region::named(table, cell)?;
     let mut random = generator(seed, set);
+    let mut radii = Draw::of(table, &mut random)?;
     match (table.count, table.solid_fraction) {
         (Some(count), None) => {
             let count = count.get() as usize;
             let mut tell = |placed| tell(PackingProgress::Placing { set, placed, count });
-            scattered(&region, count, table.radius.0, &mut random, &mut tell)
+            scattered(&region, count, &mut radii, &mut random, &mut tell)
         }
         (None, Some(fraction)) => {
             let mut tell = |rounds, overlap| tell(PackingProgress::Pushing { set, rounds, overlap });
-            dense(&region, fraction.get(), table.radius.0, &mut random, &mut tell)
+            dense(&region, fraction.get(), &mut radii, &mut random, &mut tell)
         }
         _ => {
             let found = if table.count.is_some() { "both" } else { "neither" }.to_owned();
@@ -97,7 +99,7 @@ pub(crate) fn packing(
 fn scattered(
     region: &Region,
     count: usize,
-    [least, most]: [f64; 2],
+    radii: &mut Draw,
     random: &mut ChaCha8Rng,
     tell: &mut dyn FnMut(usize),
 ) -> Result<Vec<Sphere>, (&'static str, Mistake)> {
@@ -106,7 +108,7 @@ fn scattered(
         return Err(("packing.count", Mistake::Unexpected { found, expected }));
     }
     let size = region.size();
-    let radii: Vec<f64> = (0..count).map(|_| least + (most - least) * uniform(random)).collect();
+    let radii: Vec<f64> = (0..count).map(|_| radii.next(random)).collect();
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|a, b| radii[*b].total_cmp(&radii[*a]));
     let mut spheres = vec![([0.0; 3], 0.0); count];
@@ -156,11 +158,12 @@ mod tests {
     fn cube(count: u32, radii: [f64; 2]) -> PackingTable {
         let [least, most] = radii.map(|radius| Positive::new(radius).unwrap().get());
         PackingTable {
-            corners: Some(Corners([[-1.0; 3], [0.0; 3]])),
+            r#box: Some(Corners([[-1.0; 3], [0.0; 3]])),
             cylinder: None,
             count: NonZeroU32::new(count),
             solid_fraction: None,
-            radius: Radii([least, most]),
+            radius: Some(Radii([least, most])),
+            sizes: None,
         }
     }
 

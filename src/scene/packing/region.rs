@@ -41,7 +41,7 @@ const UPRIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0
 impl Region {
     /// The region that a table names, which is the scene's cell where it names none; otherwise the key that is wrong.
     pub(super) fn named(table: &PackingTable, cell: Option<Lattice>) -> Result<Self, (&'static str, Mistake)> {
-        match (&table.corners, &table.cylinder) {
+        match (&table.r#box, &table.cylinder) {
             (None, None) if cell.is_some() => Ok(Self::cell(cell.unwrap_or_default())),
             (Some(corners), None) => {
                 let [lower, upper] = corners.0;
@@ -50,7 +50,7 @@ impl Region {
             }
             (None, Some(cylinder)) => Self::cylinder(cylinder),
             _ => {
-                let found = if table.corners.is_some() { "both" } else { "neither" }.to_owned();
+                let found = if table.r#box.is_some() { "both" } else { "neither" }.to_owned();
                 let expected = "one of box and cylinder, or a [cell]".to_owned();
                 Err(("packing", Mistake::Unexpected { found, expected }))
             }

@@ -45,9 +45,9 @@ impl Simulation {
     }
 
     /// Gives passes the velocities that include the streaming motion of the cell.
-    pub(super) fn stream(&mut self) {
+    pub(super) fn stream(&mut self, context: &Context) {
         if let Some(cell) = &mut self.cell {
-            cell.stream(&mut self.state);
+            cell.stream(&mut self.state, context);
         }
     }
 

@@ -142,7 +142,7 @@ const FORCES: &[Stage] = &[
         is_needed: Simulation::is_cell_loaded,
         reads: &[Places, Cell],
         writes: &[Motions, Cell],
-        run: |it, _| it.stream(),
+        run: |it, step| it.stream(step.context),
     },
     Stage {
         name: "contacts",
@@ -260,6 +260,14 @@ const FORCES: &[Stage] = &[
 
 /// The other half of the kick.
 const KICK: &[Stage] = &[
+    Stage {
+        name: "convection",
+        scenes: "fluid into which heat flows",
+        is_needed: |it| it.scene.fluid.as_ref().is_some_and(|fluid| fluid.heat.is_some()),
+        reads: &[Places, Motions, Clumps, Fluid, Heat],
+        writes: &[Fluid, Heat],
+        run: Simulation::convect,
+    },
     Stage {
         name: "heat",
         scenes: "temperatures",

@@ -2,30 +2,32 @@
 
 use super::topology::Topology;
 use super::{Mesh, faults, files};
+use crate::base::document::keys;
 use crate::base::geometry::rotation;
 use crate::base::quantity::{MaterialIndex, Positive, Triple};
 use crate::laws::surface::{Files, Shape, ShapeContext, ShapeKeys};
-use serde::Deserialize;
 
-/// `mesh = { file }`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// The file: STL, OBJ or VTK.
-    file: String,
-    /// Files of further triangles of the same surface.
-    #[serde(default)]
-    joined: Vec<String>,
-    /// Length of one unit of the file \[m\].
-    scale: Option<Positive>,
-    /// Rotation after scaling: a rotation vector \[rad\].
-    rotation: Option<Triple>,
-    /// Displacement after that \[m\].
-    offset: Option<Triple>,
-    /// Which sides of the triangles count: 1, where the normals point, or 2.
-    sides: Option<u8>,
-    /// Corners no further apart than this are one vertex \[m\].
-    weld_distance: Option<Positive>,
+keys! {
+    /// `mesh = { file }`
+    #[derive(Clone, Debug)]
+    pub(crate) struct Keys {
+        /// STL (`.stl`, ASCII or binary), OBJ (`.obj`), or VTK (`.vtp`, `.vtu`, legacy `.vtk`) with triangles, flat convex polygons or
+        /// strips. Normals follow from the order of the corners.
+        file: String = "required",
+        /// Files with further triangles of the same surface, welded to it. (Two boundaries with a common edge would both count it.)
+        #[serde(default)]
+        joined: Vec<String> = "`[]`",
+        /// Length of one unit of the file \[m\].
+        scale: Option<Positive> = "1",
+        /// Rotation of the mesh after scaling: a rotation vector \[rad\].
+        rotation: Option<Triple> = "none",
+        /// Displacement of the mesh after that \[m\].
+        offset: Option<Triple> = "none",
+        /// `1`: a triangle counts only for particles in front of it (normals point towards the particles); `2`: both sides count.
+        sides: Option<u8> = "1 for a closed surface, else 2",
+        /// Corners no further apart become one vertex \[m\].
+        weld_distance: Option<Positive> = "1e-6 of the size of the surface, at most 1e-3 of its shortest edge",
+    }
 }
 
 impl Keys {

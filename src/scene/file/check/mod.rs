@@ -66,7 +66,7 @@ pub(super) fn scene(
     motion::damping(&boundaries, &damping, &mut faults);
     let forces = damping::forces(&written, &born, &mut faults);
     let heat_sources = heat::sources(&written, &born, &mut faults);
-    let fluid = fluid::fluid(&written, source, &mut faults);
+    let fluid = fluid::fluid(&written, source, (&materials, &born, &columns), &mut faults);
     let regions = regions(&written, source, &mut faults);
     let grids = written.grids.iter().map(|(name, keys)| Grid::of(name, keys)).collect();
     let exchange::Parts { insertions, outlets, meters } =
@@ -94,7 +94,7 @@ pub(super) fn scene(
         regions,
         grids,
         outside: written.domain.as_ref().and_then(|domain| domain.outside).unwrap_or_default(),
-        domain: written.domain.map(|domain| domain.corners.0),
+        domain: written.domain.map(|domain| domain.r#box.0),
         cell,
         insertions,
         outlets,

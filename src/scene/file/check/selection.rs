@@ -36,7 +36,7 @@ pub(super) fn members(selection: &Selection, born: &ReadParticles, table: &str, 
         };
         sets.as_ref().is_none_or(|sets| sets.contains(&particle.set.index()))
             && ids.as_ref().is_none_or(|ids| ids.binary_search(&particle.id.0).is_ok())
-            && selection.corners.is_none_or(|corners| in_box(corners.0))
+            && selection.r#box.is_none_or(|corners| in_box(corners.0))
     };
     let members: Vec<u32> =
         (0..).zip(&born.particles).filter(|(_, particle)| chosen(particle)).map(|(i, _)| i).collect();

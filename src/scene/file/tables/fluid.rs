@@ -1,5 +1,7 @@
 //! A fluid, as the scene writes it.
 
+use super::TemperatureKey;
+use crate::base::document::keys;
 use crate::base::quantity::{Porosity, Positive, Triple};
 use crate::laws::motion::{Axis, PrescribedMotion};
 use crate::scene::Pressure;
@@ -9,32 +11,44 @@ use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// `[fluid.<name>]`, without its drag law.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct FluidTable {
-    /// Density \[kg/m³\].
-    pub(in crate::scene::file) density: Positive,
-    /// Dynamic viscosity \[Pa s\].
-    pub(in crate::scene::file) viscosity: Positive,
-    /// Velocity between the particles; absent: none.
-    pub(in crate::scene::file) velocity: Option<VelocityKey>,
-    /// Part of the space that the particles leave to it.
-    pub(in crate::scene::file) porosity: Option<Porosity>,
-    /// Whether it brakes the rotation of the particles.
-    #[serde(default)]
-    pub(in crate::scene::file) torque: bool,
-    /// Grid in whose box it is.
-    pub(in crate::scene::file) grid: Option<String>,
-    /// What the gradient of the pressure that the outside gives contains.
-    pub(in crate::scene::file) pressure: Option<Pressure>,
-    /// Answered: not modelled.
-    pub(in crate::scene::file) lift: Option<IgnoredAny>,
-    /// Answered: not modelled.
-    pub(in crate::scene::file) added_mass: Option<IgnoredAny>,
-    /// Read on its own.
-    #[serde(rename = "drag")]
-    _drag: Option<IgnoredAny>,
+keys! {
+    /// `[fluid.<name>]`, without its laws.
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct FluidTable {
+        /// Density ρ \[kg/m³\].
+        pub(in crate::scene::file) density: Positive = "required",
+        /// Dynamic viscosity µ \[Pa s\].
+        pub(in crate::scene::file) viscosity: Positive = "required",
+        /// Velocity between the particles \[m/s\]: `[x, y, z]`; `"driven"` (by inputs, from rest on) or `{ driven = [x, y, z] }`;
+        /// `{ prescribed = { x = .. } }`, that of [motions](#boundaryname) of boundaries.
+        pub(in crate::scene::file) velocity: Option<VelocityKey> = "rest",
+        /// [Grid](#gridname) in whose box it is, with velocity, pressure gradient and porosity in each cell.
+        pub(in crate::scene::file) grid: Option<String> = "everywhere",
+        /// The pressure gradient is an input: `"total"`, or `"dynamic"` without ρ g.
+        pub(in crate::scene::file) pressure: Option<Pressure> = "ρ g, no input",
+        /// Part of space that the particles leave to it; required by `di_felice`, `gidaspow`, `koch_hill`, `beetstra` without a grid.
+        pub(in crate::scene::file) porosity: Option<Porosity> = "1",
+        /// Whether it brakes rotation.
+        #[serde(default)]
+        pub(in crate::scene::file) torque: bool = "`false`",
+        /// Temperature \[K\]: a number; `"driven"` from the mean of the particles on, or `{ driven = 300.0 }`.
+        pub(in crate::scene::file) temperature: Option<TemperatureKey> = "required by convection",
+        /// Conductivity \[W/(m K)\].
+        pub(in crate::scene::file) conductivity: Option<Positive> = "required by convection",
+        /// Specific heat \[J/(kg K)\].
+        pub(in crate::scene::file) specific_heat: Option<Positive> = "required by convection",
+    } beside {
+        /// Answered: not modelled.
+        pub(in crate::scene::file) lift: Option<IgnoredAny>,
+        /// Answered: not modelled.
+        pub(in crate::scene::file) added_mass: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "drag")]
+        _drag: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "heat")]
+        _heat: Option<IgnoredAny>,
+    }
 }
 
 /// `velocity` of a fluid.

@@ -1,5 +1,6 @@
 //! Temperatures and heat sources, as the scene writes them.
 
+use crate::base::document::keys;
 use crate::base::quantity::{Finite, NonNegative, Positive};
 use crate::laws::contact::LossKind;
 use crate::laws::surface::Selection;
@@ -60,16 +61,17 @@ impl<'de> Deserialize<'de> for TemperatureKey {
     }
 }
 
-/// `[heat]`
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct HeatTable {
-    /// Whether heat flows while nothing moves.
-    #[serde(default)]
-    frozen: bool,
-    /// Losses that warm the bodies.
-    #[serde(default)]
-    from_losses: Vec<WarmingLoss>,
+keys! {
+    /// `[heat]`
+    #[derive(Debug, Default)]
+    pub(in crate::scene::file) struct HeatTable {
+        /// Whether heat flows while nothing moves.
+        #[serde(default)]
+        frozen: bool = "`false`",
+        /// Losses that warm both bodies of a contact: `normal_damping`, `tangential_damping`, `sliding`, `rolling` ([heat.md](heat.md)).
+        #[serde(default)]
+        from_losses: Vec<WarmingLoss> = "none",
+    }
 }
 
 impl HeatTable {
@@ -109,16 +111,17 @@ impl WarmingLoss {
     }
 }
 
-/// `[heat_source.<name>]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct HeatSourceTable {
-    /// The particles.
-    pub(in crate::scene::file) particles: Selection,
-    /// Heat flow into each \[W\].
-    pub(in crate::scene::file) power: Option<Finite>,
-    /// Surroundings with which each exchanges heat.
-    pub(in crate::scene::file) ambient: Option<AmbientTable>,
+keys! {
+    /// `[heat_source.<name>]`
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct HeatSourceTable {
+        /// The [particles](#choosing-particles), none of a group.
+        pub(in crate::scene::file) particles: Selection = "required",
+        /// Heat flow into each \[W\].
+        pub(in crate::scene::file) power: Option<Finite> = "one of the two",
+        /// `{ temperature, conductance }`: surroundings \[K\] and conductance to each \[W/K\].
+        pub(in crate::scene::file) ambient: Option<AmbientTable> = "one of the two",
+    }
 }
 
 /// `ambient` of a heat source.

@@ -2,6 +2,8 @@
 
 mod body;
 mod boundary;
+#[cfg(test)]
+mod documented;
 mod fluid;
 mod heat;
 mod particles;
@@ -17,11 +19,11 @@ pub(super) use heat::{HeatSourceTable, HeatTable, TemperatureKey};
 pub(super) use particles::{ListEntry, ParticlesTable, WrittenColumn};
 pub(super) use values::{MaterialPairs, StepKey};
 
+use crate::base::document::keys;
 use crate::base::quantity::{Fraction, NonNegative, PoissonsRatio, Positive, Safety};
 use crate::laws::contact::{Properties, Scheme};
 use crate::scene::exchange::Outside;
 use crate::scene::{Accuracy, MotionPlane, ParticleShape};
-use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
 use std::num::NonZeroU32;
@@ -55,142 +57,154 @@ pub(in crate::scene::file) const TABLES: [&str; 25] = [
     "derived",
 ];
 
-/// `[run]`
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct RunTable {
-    /// End \[s\].
-    pub(in crate::scene::file) end: Option<Positive>,
-    /// Time step \[s\] or `"auto"`.
-    pub(in crate::scene::file) step: Option<StepKey>,
-    /// Fraction of the stable step.
-    pub(in crate::scene::file) safety: Option<Safety>,
-    /// How accurate.
-    pub(in crate::scene::file) accuracy: Option<Accuracy>,
-    /// How springs and dashpots of contacts are integrated in time.
-    pub(in crate::scene::file) scheme: Option<Scheme>,
-    /// Whether a given step above the stable one may run on.
-    pub(in crate::scene::file) allow_unstable: Option<bool>,
-    /// Whether a run stops where the stable step falls below a given one.
-    pub(in crate::scene::file) strict_step: Option<bool>,
-    /// Threads.
-    pub(in crate::scene::file) threads: Option<NonZeroU32>,
-    /// Seed of everything random.
-    pub(in crate::scene::file) seed: Option<u64>,
-    /// Search distance beyond touch \[m\].
-    pub(in crate::scene::file) skin: Option<Positive>,
-    /// Unbalanced force over mean contact force at which settling ends.
-    pub(in crate::scene::file) settle_tolerance: Option<Positive>,
-    /// Damping coefficient while settling.
-    pub(in crate::scene::file) settle_damping: Option<Fraction>,
-    /// Largest overlap at the start over the smaller radius.
-    pub(in crate::scene::file) max_overlap: Option<NonNegative>,
-    /// The plane in which all particles stay.
-    pub(in crate::scene::file) plane: Option<MotionPlane>,
-    /// What they are in it.
-    pub(in crate::scene::file) plane_particles: Option<ParticleShape>,
-    /// Whether derivatives are differences of both sides.
-    pub(in crate::scene::file) central_derivatives: Option<bool>,
-    /// How far derivatives displace inputs, over what the program chooses.
-    pub(in crate::scene::file) derivative_displacement: Option<Positive>,
+keys! {
+    /// `[run]`
+    #[derive(Debug, Default)]
+    pub(in crate::scene::file) struct RunTable {
+        /// End of `cograin run`, and stop time of the unit's default experiment \[s\].
+        pub(in crate::scene::file) end: Option<Positive> = "none",
+        /// Longest time step \[s\], > 0; `"auto"`: the longest with this `accuracy`.
+        pub(in crate::scene::file) step: Option<StepKey> = "`\"auto\"`",
+        /// A fixed fraction of the stable step instead.
+        pub(in crate::scene::file) safety: Option<Safety> = "none",
+        /// The largest mean error of restitution, and of amplitudes of bonded bodies, that the automatic step allows
+        /// ([stability.md](stability.md#the-step-that-follows-the-moment)), > 0 and < 1; `"standard"`: 0.01; `"high"`: 0.001, and the
+        /// scheme `predicted`.
+        pub(in crate::scene::file) accuracy: Option<Accuracy> = "`\"standard\"`",
+        /// How springs and dashpots are integrated in time ([physics.md](physics.md), section 7): `"engine"`, as LIGGGHTS and LAMMPS
+        /// do; `"predicted_normal"`, dashpots along the normal of second order; `"midway"`, springs of second order;
+        /// `"predicted"`, springs and dashpots of second order.
+        pub(in crate::scene::file) scheme: Option<Scheme> = "`\"predicted_normal\"`; `\"predicted\"` with `accuracy = \"high\"`",
+        /// Whether a given step above the stable one runs on ([stability.md](stability.md)).
+        pub(in crate::scene::file) allow_unstable: Option<bool> = "`false`",
+        /// Whether a given step above the stable one stops the run instead of being divided; not with `allow_unstable`.
+        pub(in crate::scene::file) strict_step: Option<bool> = "`false`; `true` beside bonds that need the very step",
+        /// Number of threads; results do not depend on it.
+        pub(in crate::scene::file) threads: Option<NonZeroU32> = "those of the machine",
+        /// Seed of everything random (ChaCha8), 0 to 18446744073709551615.
+        pub(in crate::scene::file) seed: Option<u64> = "1",
+        /// Distance beyond touch up to which neighbours are searched \[m\].
+        pub(in crate::scene::file) skin: Option<Positive> = "a tenth of the mean radius at first, then by motion and near pairs",
+        /// Unbalanced force over the mean contact force (bond force, if nothing touches) at which `cograin settle` is done.
+        pub(in crate::scene::file) settle_tolerance: Option<Positive> = "1e-4",
+        /// Cundall damping that `cograin settle` adds to particles without any.
+        pub(in crate::scene::file) settle_damping: Option<Fraction> = "0.2; 0.7 with bonds",
+        /// Largest overlap accepted at the start, over the smaller radius.
+        pub(in crate::scene::file) max_overlap: Option<NonNegative> = "0.05",
+        /// The plane in which all particles stay, see below: `"xz"`.
+        pub(in crate::scene::file) plane: Option<MotionPlane> = "three dimensions",
+        /// `"spheres"`, or `"discs"` 1 m thick (mass πr²ρ · 1 m, moment of inertia ½mr²).
+        pub(in crate::scene::file) plane_particles: Option<ParticleShape> = "`\"spheres\"`",
+        /// Whether [derivatives](fmu.md#derivatives) are differences of both sides.
+        pub(in crate::scene::file) central_derivatives: Option<bool> = "`false`",
+        /// How far derivatives displace inputs, over what the program chooses.
+        pub(in crate::scene::file) derivative_displacement: Option<Positive> = "1",
+    }
 }
 
-/// `[material.<name>]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct MaterialTable {
-    /// Density \[kg/m³\].
-    pub(in crate::scene::file) density: Positive,
-    /// Young's modulus \[Pa\].
-    pub(in crate::scene::file) youngs_modulus: Option<Positive>,
-    /// Poisson's ratio.
-    pub(in crate::scene::file) poissons_ratio: Option<PoissonsRatio>,
-    /// Conductivity \[W/(m K)\].
-    pub(in crate::scene::file) conductivity: Option<Positive>,
-    /// Specific heat \[J/(kg K)\].
-    pub(in crate::scene::file) specific_heat: Option<Positive>,
-    /// Young's modulus of the real bodies \[Pa\].
-    pub(in crate::scene::file) real_youngs_modulus: Option<Positive>,
-    /// Properties that laws declare.
-    #[serde(skip)]
-    pub(in crate::scene::file) properties: Properties,
+keys! {
+    /// `[material.<name>]`
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct MaterialTable {
+        /// Density of particles that have none of their own \[kg/m³\].
+        pub(in crate::scene::file) density: Positive = "required",
+        /// Young's modulus E \[Pa\].
+        pub(in crate::scene::file) youngs_modulus: Option<Positive> = "not needed if no law uses it",
+        /// Poisson's ratio ν.
+        pub(in crate::scene::file) poissons_ratio: Option<PoissonsRatio> = "not needed if no law uses it",
+        /// Conductivity k \[W/(m K)\], see [heat.md](heat.md).
+        pub(in crate::scene::file) conductivity: Option<Positive> = "not needed if no heat model uses it",
+        /// Specific heat c \[J/(kg K)\].
+        pub(in crate::scene::file) specific_heat: Option<Positive> = "not needed where no heat flows",
+        /// Young's modulus of the real bodies, whose area of contact conducts \[Pa\].
+        pub(in crate::scene::file) real_youngs_modulus: Option<Positive> = "that of the springs",
+    } beside {
+        /// Properties that laws declare.
+        #[serde(skip)]
+        pub(in crate::scene::file) properties: Properties,
+    }
 }
 
-/// `[contact.<name>]`, without its sub-models.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct ContactTable {
-    /// The pairs of materials; absent: all.
-    pub(in crate::scene::file) between: Option<MaterialPairs>,
-    /// Whether the normal force is limited so that it never pulls.
-    #[serde(default)]
-    pub(in crate::scene::file) limit_force: bool,
-    /// Whether the tangential dashpot acts.
-    pub(in crate::scene::file) tangential_damping: Option<bool>,
-    /// Read on its own.
-    #[serde(rename = "normal")]
-    _normal: Option<IgnoredAny>,
-    /// Read on its own.
-    #[serde(rename = "tangential")]
-    _tangential: Option<IgnoredAny>,
-    /// Read on its own.
-    #[serde(rename = "rolling")]
-    _rolling: Option<IgnoredAny>,
-    /// Read on its own.
-    #[serde(rename = "cohesion")]
-    _cohesion: Option<IgnoredAny>,
-    /// Read on its own.
-    #[serde(rename = "heat")]
-    _heat: Option<IgnoredAny>,
+keys! {
+    /// `[contact.<name>]`, without its sub-models.
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct ContactTable {
+        /// `["a", "b"]` or a list of such pairs of materials.
+        pub(in crate::scene::file) between: Option<MaterialPairs> = "all materials",
+        /// Whether the normal force (without cohesion) is limited so that it never pulls.
+        #[serde(default)]
+        pub(in crate::scene::file) limit_force: bool = "`false`",
+        /// Whether the tangential dashpot acts.
+        pub(in crate::scene::file) tangential_damping: Option<bool> = "`true`",
+    } beside {
+        /// Read on its own.
+        #[serde(rename = "normal")]
+        _normal: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "tangential")]
+        _tangential: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "rolling")]
+        _rolling: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "cohesion")]
+        _cohesion: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "heat")]
+        _heat: Option<IgnoredAny>,
+    }
 }
 
-/// `[damping.<name>]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct DampingTable {
-    /// The particles; absent: all.
-    pub(in crate::scene::file) particles: Option<Selection>,
-    /// Fraction of the force.
-    pub(in crate::scene::file) linear: Fraction,
-    /// Fraction of the torque.
-    pub(in crate::scene::file) angular: Fraction,
-    /// Factor on both, particle by particle.
-    pub(in crate::scene::file) scale: Option<ScaleTable>,
-    /// Whether gravity is damped.
-    pub(in crate::scene::file) gravity_damped: Option<bool>,
-    /// Whether applied forces are damped.
-    pub(in crate::scene::file) applied_forces_damped: Option<bool>,
+keys! {
+    /// `[damping.<name>]`
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct DampingTable {
+        /// A choice of particles.
+        pub(in crate::scene::file) particles: Option<Selection> = "all, those that come later included",
+        /// Fraction of the force.
+        pub(in crate::scene::file) linear: Fraction = "required",
+        /// Fraction of the torque.
+        pub(in crate::scene::file) angular: Fraction = "required",
+        /// A factor on both, particle by particle, see below.
+        pub(in crate::scene::file) scale: Option<ScaleTable> = "1",
+        /// Whether gravity is part of the damped force.
+        pub(in crate::scene::file) gravity_damped: Option<bool> = "required if there is gravity",
+        /// Whether applied forces are part of it.
+        pub(in crate::scene::file) applied_forces_damped: Option<bool> = "required if there is a `[force]`",
+    }
 }
 
-/// `scale` of a damping: one of these.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct ScaleTable {
-    /// By material; 1 for those not named.
-    pub(in crate::scene::file) material: Option<BTreeMap<String, NonNegative>>,
-    /// Radius over this length \[m\].
-    pub(in crate::scene::file) radius_divisor: Option<Positive>,
-    /// A column of the particles' files.
-    pub(in crate::scene::file) column: Option<String>,
+keys! {
+    /// `scale` of a damping: one of these.
+    #[derive(Clone, Debug)]
+    pub(in crate::scene::file) struct ScaleTable {
+        /// A factor for each material, 1 for those not named: `{ steel = 0.5 }`.
+        pub(in crate::scene::file) material: Option<BTreeMap<String, NonNegative>> = "one of these",
+        /// The factor is the radius over this length \[m\].
+        pub(in crate::scene::file) radius_divisor: Option<Positive> = "one of these",
+        /// Name of a column of the sets' files.
+        pub(in crate::scene::file) column: Option<String> = "one of these",
+    }
 }
 
-/// `[force.<name>]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct ForceTable {
-    /// The particles.
-    pub(in crate::scene::file) particles: Selection,
-    /// Force on each \[N\].
-    pub(in crate::scene::file) force: Triple,
+keys! {
+    /// `[force.<name>]`
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct ForceTable {
+        /// A choice of particles.
+        pub(in crate::scene::file) particles: Selection = "required",
+        /// Force on each of them, `[x, y, z]` \[N\].
+        pub(in crate::scene::file) force: Triple = "required",
+    }
 }
 
-/// `[domain]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct DomainTable {
-    /// Its corners \[m\].
-    #[serde(rename = "box")]
-    pub(in crate::scene::file) corners: Corners,
-    /// What happens to particles outside of it.
-    pub(in crate::scene::file) outside: Option<Outside>,
+keys! {
+    /// `[domain]`
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct DomainTable {
+        /// Lower and upper corner \[m\].
+        pub(in crate::scene::file) r#box: Corners = "required",
+        /// What happens to a particle outside: `"stop"` refuses the scene or stops the run; `"remove"` takes it away, as an outlet does.
+        pub(in crate::scene::file) outside: Option<Outside> = "`\"stop\"`",
+    }
 }

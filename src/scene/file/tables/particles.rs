@@ -1,48 +1,50 @@
 //! `[particles.<name>]`
 
+use crate::base::document::keys;
 use crate::base::quantity::{Positive, Triple};
 use crate::scene::clump::OrientationKey;
 use crate::scene::import::{Format, Units};
 use crate::scene::packing::{LatticeTable, PackingTable};
-use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// `[particles.<name>]`
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct ParticlesTable {
-    /// What it says of declared columns, each read by its name.
-    #[serde(skip)]
-    pub(in crate::scene::file) columns: BTreeMap<&'static str, WrittenColumn>,
-    /// Material of those that name none.
-    pub(in crate::scene::file) material: Option<String>,
-    /// Material of each type or material that the file names.
-    #[serde(default)]
-    pub(in crate::scene::file) materials: BTreeMap<String, String>,
-    /// Density of those that have none of their own \[kg/m³\].
-    pub(in crate::scene::file) density: Option<Positive>,
-    /// Velocity of those that have none of their own \[m/s\].
-    pub(in crate::scene::file) velocity: Option<Triple>,
-    /// Angular velocity of those that have none of their own \[rad/s\].
-    pub(in crate::scene::file) angular_velocity: Option<Triple>,
-    /// The clump that each of them is; absent: spheres.
-    pub(in crate::scene::file) clump: Option<String>,
-    /// How the clumps are turned that have no orientation of their own.
-    pub(in crate::scene::file) orientation: Option<OrientationKey>,
-    /// The particles, one by one.
-    pub(in crate::scene::file) list: Option<Vec<ListEntry>>,
-    /// A file of particles.
-    pub(in crate::scene::file) file: Option<String>,
-    /// What the file is, where its name does not say.
-    pub(in crate::scene::file) format: Option<Format>,
-    /// The file's units.
-    pub(in crate::scene::file) units: Option<Units>,
-    /// The snapshot of a dump file; absent: the last.
-    pub(in crate::scene::file) timestep: Option<u64>,
-    /// A regular order.
-    pub(in crate::scene::file) lattice: Option<LatticeTable>,
-    /// A random packing.
-    pub(in crate::scene::file) packing: Option<PackingTable>,
+keys! {
+    /// `[particles.<name>]`
+    #[derive(Debug)]
+    pub(in crate::scene::file) struct ParticlesTable {
+        /// Material of particles that name none of their own.
+        pub(in crate::scene::file) material: Option<String> = "none",
+        /// The same of density \[kg/m³\].
+        pub(in crate::scene::file) density: Option<Positive> = "that of the material",
+        /// The same of velocity \[m/s\].
+        pub(in crate::scene::file) velocity: Option<Triple> = "`[0, 0, 0]`",
+        /// The same of angular velocity \[rad/s\].
+        pub(in crate::scene::file) angular_velocity: Option<Triple> = "`[0, 0, 0]`",
+        /// The [clump](#clumpname) that each of them is.
+        pub(in crate::scene::file) clump: Option<String> = "spheres",
+        /// How clumps are turned that have no orientation of their own.
+        pub(in crate::scene::file) orientation: Option<OrientationKey> = "`[1, 0, 0, 0]`",
+        /// The particles, one by one.
+        pub(in crate::scene::file) list: Option<Vec<ListEntry>> = "one of four",
+        /// A file with particles; paths count from the folder of the scene.
+        pub(in crate::scene::file) file: Option<String> = "one of four",
+        /// Format of the file: `csv`, `vtu`, `data`, `dump`.
+        pub(in crate::scene::file) format: Option<Format> = "by the name of the file",
+        /// Units of the file: `si`, `cgs`, `micro`, `nano`.
+        pub(in crate::scene::file) units: Option<Units> = "see below",
+        /// Which snapshot of a dump.
+        pub(in crate::scene::file) timestep: Option<u64> = "the last",
+        /// Material of each type or name in the file: `{ 1 = "glass" }`.
+        #[serde(default)]
+        pub(in crate::scene::file) materials: BTreeMap<String, String> = "names as they are",
+        /// A regular arrangement of spheres.
+        pub(in crate::scene::file) lattice: Option<LatticeTable> = "one of four",
+        /// A random packing.
+        pub(in crate::scene::file) packing: Option<PackingTable> = "one of four",
+    } beside {
+        /// What it says of declared columns, each read by its name.
+        #[serde(skip)]
+        pub(in crate::scene::file) columns: BTreeMap<&'static str, WrittenColumn>,
+    }
 }
 
 /// What a table says of a declared column.
@@ -54,26 +56,27 @@ pub(in crate::scene::file) struct WrittenColumn {
     pub(in crate::scene::file) listed: Vec<Option<f64>>,
 }
 
-/// A particle in a list.
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(in crate::scene::file) struct ListEntry {
-    /// Position of the centre, of clumps of the mass centre \[m\].
-    pub(in crate::scene::file) position: Triple,
-    /// Radius, of clumps that of the bounding sphere about the mass centre \[m\].
-    pub(in crate::scene::file) radius: Option<Positive>,
-    /// All lengths of a clump over those of its table.
-    pub(in crate::scene::file) scale: Option<Positive>,
-    /// How a clump is turned.
-    pub(in crate::scene::file) orientation: Option<OrientationKey>,
-    /// Its number.
-    pub(in crate::scene::file) id: Option<u32>,
-    /// Its material.
-    pub(in crate::scene::file) material: Option<String>,
-    /// Its density \[kg/m³\].
-    pub(in crate::scene::file) density: Option<Positive>,
-    /// Its velocity \[m/s\].
-    pub(in crate::scene::file) velocity: Option<Triple>,
-    /// Its angular velocity \[rad/s\].
-    pub(in crate::scene::file) angular_velocity: Option<Triple>,
+keys! {
+    /// A particle in a list.
+    #[derive(Clone, Debug)]
+    pub(in crate::scene::file) struct ListEntry {
+        /// Position of the centre, of clumps of the mass centre \[m\].
+        pub(in crate::scene::file) position: Triple = "required",
+        /// Radius, of clumps that of the bounding sphere about the mass centre \[m\].
+        pub(in crate::scene::file) radius: Option<Positive> = "required but for clumps",
+        /// All lengths of a clump over those of its table.
+        pub(in crate::scene::file) scale: Option<Positive> = "1",
+        /// How a clump is turned.
+        pub(in crate::scene::file) orientation: Option<OrientationKey> = "that of the set",
+        /// Its number, 0 to 4294967295.
+        pub(in crate::scene::file) id: Option<u32> = "the next",
+        /// Its material.
+        pub(in crate::scene::file) material: Option<String> = "that of the set",
+        /// Its density \[kg/m³\].
+        pub(in crate::scene::file) density: Option<Positive> = "that of the set",
+        /// Its velocity \[m/s\].
+        pub(in crate::scene::file) velocity: Option<Triple> = "that of the set",
+        /// Its angular velocity \[rad/s\].
+        pub(in crate::scene::file) angular_velocity: Option<Triple> = "that of the set",
+    }
 }

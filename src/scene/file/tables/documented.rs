@@ -1,0 +1,92 @@
+//! The tables of keys in the documentation are those that the program reads.
+
+use super::{
+    BoundaryTable, ContactTable, DampingTable, DomainTable, FluidTable, ForceTable, HeatSourceTable, HeatTable,
+    ListEntry, MaterialTable, ParticlesTable, RunTable, ScaleTable, Selection,
+};
+use crate::base::document::{Table, printed};
+use crate::laws::{region, surface};
+use crate::scene::cell::{CellKeys, MotionKeys};
+use crate::scene::clump::ClumpKeys;
+use crate::scene::exchange::{InsertionKeys, MeterKeys, OutletKeys};
+use crate::scene::grid::GridKeys;
+use crate::scene::packing::{LatticeTable, PackingTable};
+use crate::scene::{About, DerivedKeys, Output, ProbeKeys};
+use std::path::Path;
+use std::{fs, io};
+
+/// The name of a table's type, and the table as the documentation has it.
+fn of<T: Table>() -> (&'static str, String) {
+    (T::NAME, printed(T::KEYS))
+}
+
+/// Every table that declares its keys.
+fn tables() -> Vec<(&'static str, String)> {
+    vec![
+        of::<About>(),
+        of::<BoundaryTable>(),
+        of::<CellKeys>(),
+        of::<ClumpKeys>(),
+        of::<ContactTable>(),
+        of::<DampingTable>(),
+        of::<DerivedKeys>(),
+        of::<DomainTable>(),
+        of::<FluidTable>(),
+        of::<ForceTable>(),
+        of::<GridKeys>(),
+        of::<HeatSourceTable>(),
+        of::<HeatTable>(),
+        of::<InsertionKeys>(),
+        of::<LatticeTable>(),
+        of::<ListEntry>(),
+        of::<MaterialTable>(),
+        of::<MeterKeys>(),
+        of::<MotionKeys>(),
+        of::<OutletKeys>(),
+        of::<Output>(),
+        of::<PackingTable>(),
+        of::<ParticlesTable>(),
+        of::<ProbeKeys>(),
+        of::<RunTable>(),
+        of::<ScaleTable>(),
+        of::<Selection>(),
+        of::<region::Keys>(),
+        of::<surface::mesh::Keys>(),
+    ]
+}
+
+/// Names of the types that files of a folder, and of those below it, declare by `keys!`.
+fn declared(folder: &Path, names: &mut Vec<String>) -> io::Result<()> {
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.is_dir() {
+            declared(&path, names)?;
+            continue;
+        }
+        let text = fs::read_to_string(&path)?;
+        let name = |rest: &str| rest.split("struct ").nth(1)?.split(' ').next().map(str::to_owned);
+        names.extend(text.split("\nkeys! {\n").skip(1).filter_map(name));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_key_stands_in_the_documentation_as_it_is_declared() {
+    let page = include_str!("../../../../docs/scene.md");
+    let missing: Vec<String> = tables()
+        .into_iter()
+        .filter(|(_, table)| !page.contains(table))
+        .map(|(name, table)| format!("{name}\n{table}"))
+        .collect();
+    assert!(missing.is_empty(), "docs/scene.md lacks the tables\n\n{}", missing.join("\n"));
+}
+
+#[test]
+fn every_table_that_declares_its_keys_is_looked_for_in_the_documentation() {
+    let mut there = Vec::new();
+    declared(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &mut there).unwrap();
+    let mut looked_for: Vec<_> = tables().into_iter().map(|(name, _)| name).collect();
+    there.sort();
+    looked_for.sort_unstable();
+    assert_eq!(there, looked_for);
+}
