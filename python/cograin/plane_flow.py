@@ -94,11 +94,13 @@ class PlaneFlow:
         volume, porosity = self._elements.volume, response.porosity
         resisted = 0.5 * response.coefficient / (volume * porosity)
         still = response.drag_at(0.0 * response.velocity) / volume
+        # Spread evenly it is held by a pressure and moves nothing; so the sum is what the particles felt.
+        even = response.pressure_left(volume).mean(axis=0) / volume
         weight = porosity[:, None] * (self.density * self.gravity)
         inertia = self.density / step.length
         return self._elements.solved(
             (inertia + resisted, self.viscosity, porosity),
-            still + weight,
+            still + even + weight,
             response.solid_flux,
             inertia,
             self._state,
@@ -212,9 +214,7 @@ class _Elements:
         inertia = np.ones(len(flux))
         mass = self._mass.assemble(self._flow, cell=self._field(inertia))
         right = self._push.assemble(self._flow, first=self._field(flux[:, 0]), second=self._field(flux[:, 1]))
-        own = splu(csc_matrix(mass)).solve(right)
-        free = ~self._known[: self.flows]
-        found[: self.flows][free] = own[free]
+        found[: self.flows] = splu(csc_matrix(mass)).solve(right)
         return found
 
     def solved(

@@ -144,7 +144,7 @@ pressure = "total"
 """
 
 
-def test_what_flows_through_a_block_in_a_plane_is_what_drag_and_pressure_balance(opened):
+def test_the_pressure_of_what_flows_through_a_block_in_a_plane_is_what_holds_the_block(opened):
     unit = opened(BLOCK)
     side = FluidInterface(unit, "water", "xz")
     walls = {"z_low": (0.005, 0.0), "z_high": (0.005, 0.0)}  # they go along, so that the flow is the same everywhere
@@ -152,14 +152,9 @@ def test_what_flows_through_a_block_in_a_plane_is_what_drag_and_pressure_balance
     record = couple(side, plane, QuasiNewton(), step=0.01, end=0.05)
     assert not record.unconverged and record["evaluations"].max() < 12
     assert np.abs(plane.flux - [0.005, 0.0]).max() < 1e-6
-    # In each cell the gradient holds what the block does, and the hand holds all of it.
-    response = side.response(side.force("mean"))
-    forces = response.drag[:, 0] + response.pressure_force[:, 0]
-    gradient = response.pressure_gradient[:, 0] * side.cells.volumes[0]
-    assert np.abs(gradient - forces).max() < 1e-4 * np.abs(forces).max()
     corners, pressure = plane.pressure
-    ends = [pressure[corners[:, 0] == place].mean() for place in (0.0, 0.05)]
-    assert (ends[0] - ends[1]) * 8e-5 == pytest.approx(unit["hand.mean_force.x"], rel=1e-4)
+    ends = [pressure[np.isclose(corners[:, 0], place)].mean() for place in (0.0, 0.05)]
+    assert (ends[0] - ends[1]) * 8e-5 == pytest.approx(unit["hand.mean_force.x"], rel=1e-5)
 
 
 def test_what_cannot_be_a_partner_is_refused_in_words(opened):
