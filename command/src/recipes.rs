@@ -63,6 +63,9 @@ recipes! {
         "couple.py" "../recipes/loaded_beam/couple.py";
     "fluid" "grains that settle in water":
         "scene.toml" "../recipes/fluid/scene.toml";
+    "fluidised_column" "a bed of beads that air lifts, its flow a partner":
+        "scene.toml" "../../models/fluidised_column/scene.toml",
+        "couple.py" "../recipes/fluidised_column/couple.py";
     "heat" "grains that fall on a plate which warms them":
         "scene.toml" "../recipes/heat/scene.toml",
         "couple.py" "../recipes/heat/couple.py";
