@@ -1,11 +1,12 @@
 //! Whole time steps of the common scenes: user CPU time of a contact (or bond) and step.
 //!
-//! `cargo bench --bench whole_step -- [SCENE] [--steps N] [--threads N] [--widths] [--parts] [--packing FILE.csv.gz] [--laws] [--copies N] [--turn N]`
+//! `cargo bench --bench whole_step -- [SCENE] [--steps N] [--threads N] [--widths] [--parts] [--packing FILE.csv.gz] [--laws] [--copies N] [--turn N]
+//! [--add FILE.toml]`
 //!
 //! `--laws` runs the dense packing with every contact law there is instead, or those whose names hold SCENE.
 //! SCENE is part of a name below; without one all of them run. `--widths` repeats each in every lane width: the states
 //! must be the same. `--copies` of a scene make a `--turn` of time steps one after the other: what many steps on a part of a large
-//! scene, while it stays in the cache, can gain at the most. `--parts` prints what each part of a step takes. Peers on the same scenes: LIGGGHTS 49 ns (s1), 66 ns (s2), LAMMPS 136 ns a bond (s3).
+//! scene, while it stays in the cache, can gain at the most. `--add` adds the tables of a file to each scene: a fluid, a grid. `--parts` prints what each part of a step takes. Peers on the same scenes: LIGGGHTS 49 ns (s1), 66 ns (s2), LAMMPS 136 ns a bond (s3).
 
 use cograin::lanes::Width;
 use cograin::scene::{Models, Scene, Source};
@@ -184,6 +185,8 @@ struct Options {
     copies: usize,
     /// Time steps of a copy before the next one's turn; all if 0.
     turn: usize,
+    /// Tables that are added to each scene.
+    more: String,
 }
 
 impl Options {
@@ -199,6 +202,7 @@ impl Options {
             packing: "models/loaded_beam/dense_20k.csv.gz".into(),
             copies: 1,
             turn: 0,
+            more: String::new(),
         };
         let mut arguments = std::env::args().skip(1);
         while let Some(argument) = arguments.next() {
@@ -212,6 +216,7 @@ impl Options {
                 "--laws" => options.laws = true,
                 "--packing" => options.packing = value(),
                 "--copies" => options.copies = value().parse().expect("a number of copies"),
+                "--add" => options.more = std::fs::read_to_string(value()).expect("the tables can be read"),
                 "--turn" => options.turn = value().parse().expect("a number of time steps"),
                 name => options.name = name.into(),
             }
@@ -296,13 +301,14 @@ fn main() {
     let named = || SCENES.map(|(name, kind)| (name.to_owned(), kind)).to_vec();
     let scenes = if options.laws { every_law() } else { named() };
     for (name, kind) in scenes.into_iter().filter(|(name, _)| name.contains(&options.name)) {
-        let source = match kind {
+        let mut source = match kind {
             Kind::Dense { normal, tangential, rolling, cohesion } => {
                 let packing = std::fs::read(&options.packing).expect("the packing can be read");
                 dense(packing, [normal, tangential, rolling, cohesion], options.threads)
             }
             Kind::Bonded { formulation } => bonded(formulation, options.threads),
         };
+        source.text += &options.more;
         let scene = Arc::new(Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}")));
         for width in Width::ALL.into_iter().filter(|width| width.offered()) {
             if options.widths || width == Width::widest() {

@@ -292,7 +292,7 @@ material = "a"
 list = [{ position = [0.0, 0.0, 0.0], radius = 1.0e-3 }]
 [fluid.water]
 density = 1000.0
-viscosity = 1.0e-9
+viscosity = 1.0e-12
 pressure = "dynamic"
 [fluid.water.drag.stokes]
 "#,
@@ -548,4 +548,134 @@ fn derivatives_of_drag_by_velocities_are_the_weights_and_the_coefficient() {
 fn a_second_fluid_is_refused() {
     let error = read("[fluid.a]\ndensity = 1.0\nviscosity = 1.0\n[fluid.a.drag.stokes]\n[fluid.b]\n").unwrap_err();
     assert!(error.contains("two would overlap"), "{error}");
+}
+
+#[test]
+fn a_step_that_is_made_again_keeps_momentum_at_ten_relaxation_times_of_the_fluid() {
+    let (side, mu) = (5e-3_f64, 1.8e-3);
+    let mut simulation = start(&format!(
+        r#"
+[run]
+step = 1.0e-4
+[material.a]
+density = 2500.0
+[particles.grains]
+material = "a"
+lattice = {{ kind = "simple_cubic", origin = [1.0e-3, 1.0e-3, 1.0e-3], counts = [3, 3, 3], spacing = 1.5e-3, radius = 0.5e-3 }}
+[grid.column]
+box = [[0.0, 0.0, 0.0], [{side:?}, {side:?}, {side:?}]]
+counts = [1, 1, 1]
+[fluid.water]
+density = 1.2
+viscosity = {mu:?}
+grid = "column"
+velocity = {{ driven = [1.0, 0.0, 0.0] }}
+[fluid.water.drag.stokes]
+"#
+    ));
+    let porosity = value(&simulation, "water.cell[1].porosity");
+    let mass = 1.2 * porosity * side.powi(3);
+    let interval = 10.0 * mass / (27.0 * 3.0 * PI * mu * 1e-3 * porosity);
+    let mut velocity = 1.0;
+    for _ in 0..20 {
+        let (saved, mut end) = (simulation.state().clone(), velocity);
+        for turn in 0.. {
+            simulation.restore(&saved).unwrap();
+            give(&mut simulation, "velocity", |_| [end, 0.0, 0.0]);
+            simulation.advance(interval).unwrap();
+            let drag = value(&simulation, "water.cell[1].mean_drag.x");
+            let lacks = mass * (end - velocity) - interval * drag;
+            if lacks.abs() < 1e-13 * mass {
+                break;
+            }
+            assert!(turn < 10, "{lacks:e} N s of {mass:e}");
+            // Newton's method: on a ramp half of the change acts in the mean.
+            end -= lacks / (mass + 0.5 * interval * value(&simulation, "water.cell[1].drag_coefficient"));
+        }
+        velocity = end;
+        let all = mass * velocity + momentum(&simulation, 0)[0];
+        assert_near(all, mass, 2.5e-12);
+        assert!(velocity.abs() < 1.0, "{velocity} m/s");
+    }
+    assert!(velocity.abs() < 0.02, "{velocity} m/s");
+}
+
+/// Two warm grains in a fluid on a grid of six cells, at rest; `fluid` keys.
+fn warm(fluid: &str) -> Simulation {
+    start(&format!(
+        r#"
+[run]
+step = 1.0e-3
+[material.a]
+density = 2500.0
+specific_heat = 800.0
+[particles.grains]
+material = "a"
+temperature = 400.0
+list = [{{ position = [0.0123, 0.0171, 0.0088], radius = 1.0e-3 }}, {{ position = [0.0523, 0.0071, 0.0188], radius = 2.0e-3 }}]
+[grid.column]
+{SIX}
+[fluid.water]
+density = 1.2
+viscosity = 1.8e-5
+conductivity = 0.026
+specific_heat = 1005.0
+{fluid}
+[fluid.water.drag.stokes]
+"#
+    ))
+}
+
+/// Temperature of a grain \[K\].
+fn temperature(simulation: &Simulation, index: usize) -> f64 {
+    simulation.state().heat.as_ref().unwrap().temperature(index)
+}
+
+#[test]
+fn a_grain_cools_in_air_at_rest_as_an_exponential() {
+    // Nu = 2: τ = ρ c d²/(12 k).
+    let mut simulation = warm("temperature = 300.0\n[fluid.water.heat.ranz_marshall]");
+    simulation.advance(5.0).unwrap();
+    for (index, diameter) in [(0, 2e-3_f64), (1, 4e-3)] {
+        let relaxation = 2500.0 * 800.0 * diameter * diameter / (12.0 * 0.026);
+        let expected = 300.0 + 100.0 * (-5.0 / relaxation).exp();
+        assert_near(temperature(&simulation, index) - 300.0, expected - 300.0, 1e-4);
+    }
+}
+
+#[test]
+fn cells_take_the_heat_that_grains_lose_to_rounding() {
+    let mut simulation =
+        warm("temperature = 300.0\ngrid = \"column\"\nvelocity = [0.1, 0.0, 0.0]\n[fluid.water.heat.gunn]");
+    let capacities = [1e-3_f64, 2e-3].map(|radius| 2500.0 * 800.0 * 4.0 / 3.0 * PI * radius.powi(3));
+    let heat = |simulation: &Simulation| {
+        let of = |index: usize| capacities[index] * temperature(simulation, index);
+        of(0) + of(1)
+    };
+    for _ in 0..3 {
+        let before = heat(&simulation);
+        simulation.advance(0.05).unwrap();
+        let [lost, taken] = [before - heat(&simulation), 0.05 * sum(&simulation, "mean_heat_flow")];
+        assert!(lost > 0.0);
+        assert_near(taken, lost, 1e-9);
+    }
+    let name = "energy.heat_residual";
+    assert!(value(&simulation, name).abs() < 1e-12 * heat(&simulation), "{name}");
+}
+
+#[test]
+fn a_driven_temperature_is_that_between_the_centres_of_cells() {
+    let keys = "grid = \"column\"\ntemperature = \"driven\"\n[fluid.water.heat.ranz_marshall]";
+    let mut simulation = warm(keys);
+    let interface = Interface::of(simulation.scene());
+    let grid = simulation.scene().grids[0].shape;
+    for cell in 0..36 {
+        let index = interface.find(&format!("water.cell[{}].temperature", cell + 1)).unwrap();
+        interface.set(&mut simulation, index, Value::Real(300.0 + 1e3 * grid.centre(cell)[0])).unwrap();
+    }
+    simulation.place(None).unwrap();
+    simulation.advance(1e-3).unwrap();
+    let found = 400.0 - sum(&simulation, "mean_heat_flow") / sum(&simulation, "heat_conductance");
+    // Nu = 2, so that conductances go by diameters: 1 to 2.
+    assert_near(found, 300.0 + 1e3 * (0.0123 + 2.0 * 0.0523) / 3.0, 1e-12);
 }

@@ -146,7 +146,11 @@ list = [{ position = [0.0, 0.0, 0.002], radius = 0.002 }, { position = [0.0, 0.0
 density = 1000.0
 viscosity = 1e-3
 velocity = { prescribed = { x = { sine = { amplitude = 0.01, frequency = 10.0 } } } }
+temperature = 290.0
+conductivity = 0.6
+specific_heat = 4186.0
 [fluid.water.drag.stokes]
+[fluid.water.heat.ranz_marshall]
 "#;
 
 /// A scene with the laws.

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from cograin.unit import Unit
 
 
+#: Porosity that a fluid has at least: overlaps of particles count twice, and drag laws see no smaller one.
+LEAST = 0.2
+
+
 @dataclass(frozen=True)
 class Response:
     """What the particles of a step do to the fluid in each cell, as straight lines in what the fluid does to them.
@@ -38,18 +42,19 @@ class Response:
         found: Matrix = self.drag - 0.5 * self.coefficient[:, None] * (velocity - self.velocity)
         return found
 
-    def pressure_force_at(self, gradient: Matrix, volume: float) -> Matrix:
-        """Mean force on the fluid in cells of this volume \\[m³\\] if it had this pressure gradient \\[N\\]."""
+    def pressure_left(self, volume: float) -> Matrix:
+        """What the particles felt of the pressure beside (1 − ε) V ∇p in cells of this volume \\[m³\\] \\[N\\]."""
         solid = (1.0 - self.porosity) * volume
-        found: Matrix = self.pressure_force + solid[:, None] * (gradient - self.pressure_gradient)
+        found: Matrix = self.pressure_force - solid[:, None] * self.pressure_gradient
         return found
 
 
 class FluidInterface:
-    """The cells of ``[fluid.<name>] grid = ".."`` as a side of `couple`: velocities and pressure gradients in, drag out.
+    """The fluid of a unit, cell by cell, as a side of `couple`: velocities and pressure gradients in, drag out.
 
-    ``axes`` are those along which the partner moves the fluid. Partners are a `Column` or a `cograin.plane_flow.PlaneFlow`; the
-    exchange is `QuasiNewton`.
+    The scene has ``[fluid.<name>]`` with a ``grid``, ``velocity = "driven"`` and ``pressure = "total"``. ``axes`` are
+    those along which the partner moves the fluid: a `Column`, or a `cograin.plane_flow.PlaneFlow`. The exchange is
+    `QuasiNewton`.
     """
 
     keeps_itself = True
@@ -101,8 +106,10 @@ class FluidInterface:
 
     def response(self, force: Vector) -> Response:
         """What `force` gives, by its parts."""
-        given, rest = np.split(force, [5 * self._size])
-        return Response(*given.reshape(5, len(self.cells), len(self.axes)), *rest.reshape(2, -1))
+        fields, rest = np.split(force, [5 * self._size])
+        porosity, coefficient = rest.reshape(2, -1)
+        vectors = fields.reshape(5, len(self.cells), len(self.axes))
+        return Response(*vectors, np.maximum(porosity, LEAST), coefficient)
 
     def force(self, kind: Force) -> Vector:
         """What the particles did in the last step, behind the velocities and gradients under which they did it."""
@@ -159,13 +166,14 @@ Inflow = float | Callable[[float], float]
 class Column:
     """An incompressible fluid in a column of cells, one above the other, as a partner of a `FluidInterface`.
 
-    Continuity gives the velocity u: ε u + the solid flux is ``inflow`` \\[m/s\\] in every cell, the superficial velocity
-    of what flows in below (0: a closed bottom). Momentum gives the pressure gradient,
+    Continuity gives the velocity u: ε u + the solid flux is ``inflow`` \\[m/s\\] in every cell, the superficial
+    velocity of what flows in below (0: a closed bottom). Momentum gives the pressure gradient,
 
-        ρ [∂(ε u)/∂t + ∂(ε u u)/∂z] = −∂p/∂z + (drag + pressure force of the particles)/V + ε ρ g,
+        ρ [∂(ε u)/∂t + ∂(ε u u)/∂z] = −ε ∂p/∂z + drag/V + ε ρ g,
 
-    with drag and that force as straight lines in u and ∂p/∂z, by the particles' own coefficients. ``density`` ρ
-    \\[kg/m³\\] and ``gravity`` g along the column \\[m/s²\\] are those of the scene; p contains that of the fluid at rest.
+    with drag as a straight line in u by the particles' own coefficient. What they felt of the pressure beside
+    (1 − ε) V ∂p/∂z, in sum over the column, is spread evenly. ``density`` ρ \\[kg/m³\\] and ``gravity`` g along the
+    column \\[m/s²\\] are those of the scene; p contains that of the fluid at rest.
 
     A step is implicit. What the fluid keeps is exact whatever is left between both sides: the volume by what the
     particles take up, the momentum by the forces that they found.
@@ -183,10 +191,11 @@ class Column:
         self.displacement: Vector = vector(side.displacement)
         #: Porosity of the cells.
         self.porosity: Vector = response.porosity
-        #: Velocity of the fluid between the particles \[m/s\].
+        #: Velocity of the fluid between the particles \\[m/s\\].
         self.velocity: Vector = response.velocity[:, 0]
-        #: Pressure gradient of the last step \[Pa/m\].
+        #: Pressure gradient of the last step \\[Pa/m\\].
         self.pressure_gradient: Vector = response.pressure_gradient[:, 0]
+
     @property
     def momentum(self) -> float:
         """Momentum of the fluid along the column \\[N s\\]."""
@@ -202,9 +211,8 @@ class Column:
         response = self._side.response(force)
         velocity = self._velocity(response, step)
         drag = response.drag_at(velocity[:, None])[:, 0]
-        # The force of the pressure gradient grows with it: (1 − ε) V of V.
-        still = response.pressure_force_at(np.zeros((len(velocity), 1)), self.volume)[:, 0]
-        left = self._left(response, velocity, step) + drag + still
+        even = response.pressure_left(self.volume).mean()
+        left = self._left(response, velocity, step) + drag + even
         return np.concatenate([velocity, left / (self.volume * response.porosity)])
 
     def _through(self, time: float) -> float:
@@ -233,7 +241,7 @@ class Column:
         raise ValueError("Column: has no compliance; take QuasiNewton")
 
     def weights(self, step: Step) -> Vector:
-        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: a gradient by what it does to the fluid."""
+        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: these by what they do to the fluid."""
         cells = len(self.velocity)
         return np.concatenate([np.ones(cells), np.full(cells, self.density / step.length)])
 
@@ -241,8 +249,11 @@ class Column:
         """Makes the step with the forces that the particles found, and then stands where they stand."""
         response = self._side.response(force)
         velocity = self._velocity(response, step)
-        forces = response.drag[:, 0] + response.pressure_force[:, 0]
-        self.pressure_gradient = (self._left(response, velocity, step) + forces) / self.volume
+        left = self._left(response, velocity, step) + response.drag[:, 0]
+        # What is spread evenly makes the sum of −V ∇p + pressure force, as the particles found it, that of −ε V ∇p.
+        full = (1.0 - response.porosity) / response.porosity
+        even = (response.pressure_force.sum() - full @ left) / (len(left) + full.sum())
+        self.pressure_gradient = (left + even) / (self.volume * response.porosity)
         self.velocity, self.porosity = velocity, response.porosity
         self.displacement = displacement
 

@@ -1,4 +1,4 @@
-"""A slow flow in a plane by finite elements, as a partner of the fluid of a unit: needs scikit-fem (``cograin[elements]``)."""
+"""A slow flow in a plane by finite elements, as a partner of the fluid of a unit: needs ``cograin[elements]``."""
 
 from __future__ import annotations
 
@@ -94,12 +94,16 @@ class PlaneFlow:
         volume, porosity = self._elements.volume, response.porosity
         resisted = 0.5 * response.coefficient / (volume * porosity)
         still = response.drag_at(0.0 * response.velocity) / volume
-        # What the weights of the particles leave between their force of the pressure and (1 − ε) V ∂p.
-        other = response.pressure_force_at(0.0 * response.velocity, volume) / volume
+        # Spread evenly it is held by a pressure and moves nothing; so the sum is what the particles felt.
+        even = response.pressure_left(volume).mean(axis=0) / volume
         weight = porosity[:, None] * (self.density * self.gravity)
         inertia = self.density / step.length
         return self._elements.solved(
-            (inertia + resisted, self.viscosity, porosity), still + other + weight, response.solid_flux, inertia, self._state
+            (inertia + resisted, self.viscosity, porosity),
+            still + even + weight,
+            response.solid_flux,
+            inertia,
+            self._state,
         )
 
     def compliance(self, step: Step) -> Matrix:
@@ -107,7 +111,7 @@ class PlaneFlow:
         raise ValueError("PlaneFlow: has no compliance; take QuasiNewton")
 
     def weights(self, step: Step) -> Vector:
-        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: a gradient by what it does to the fluid."""
+        """How velocities \\[m/s\\] and pressure gradients \\[Pa/m\\] compare: these by what they do to the fluid."""
         half = len(self.displacement) // 2
         return np.concatenate([np.ones(half), np.full(half, self.density / step.length)])
 
@@ -210,9 +214,7 @@ class _Elements:
         inertia = np.ones(len(flux))
         mass = self._mass.assemble(self._flow, cell=self._field(inertia))
         right = self._push.assemble(self._flow, first=self._field(flux[:, 0]), second=self._field(flux[:, 1]))
-        own = splu(csc_matrix(mass)).solve(right)
-        free = ~self._known[: self.flows]
-        found[: self.flows][free] = own[free]
+        found[: self.flows] = splu(csc_matrix(mass)).solve(right)
         return found
 
     def solved(

@@ -10,7 +10,8 @@
 
 preCICE 3 and its bindings (``pip install pyprecice``) are not part of this package, and nothing here imports them.
 Forces and heat flows are sums over their places: map them with ``constraint="conservative"``, displacements and
-temperatures with ``"consistent"``.
+temperatures with ``"consistent"``. A `Flow` is the fluid of a unit, by the cells of its own grid: drags and drag
+coefficients are sums, too; velocities, pressure gradients, porosities and solid fluxes are fields.
 A time window is repeated from saved states as often as an implicit coupling asks for it.
 """
 
@@ -27,7 +28,7 @@ from cograin.interface import Interface
 from cograin.nodes import SCALARS
 from cograin.results import Table
 from cograin.step import Force, Step
-from cograin.unit import Unit
+from cograin.unit import State, Unit
 from cograin.vector import Matrix, Vector, vector
 
 #: What a surface reads, and what it writes for it.
@@ -69,6 +70,71 @@ class Surface:
         """Its quantities, with the names of the data that are read and written."""
         pairs = [(given, getattr(self, given), getattr(self, answer)) for given, answer in QUANTITIES.items()]
         return [pair for pair in pairs if pair[1] is not None]
+
+
+@dataclass
+class Flow:
+    """The fluid of a unit as a mesh of preCICE: a vertex for each cell of its grid.
+
+    The unit reads ``velocity`` \\[m/s\\] and ``pressure_gradient`` \\[Pa/m\\]. It writes ``drag`` \\[N\\] and
+    ``porosity``, and where names are given ``drag_coefficient`` \\[N s/m\\], ``pressure_force`` \\[N\\] and
+    ``solid_flux`` \\[m/s\\].
+    They are means of a window, but for velocity and porosity, which are those at its end.
+    """
+
+    unit: Unit
+    fluid: str
+    mesh: str
+    velocity: str = "Velocity"
+    pressure_gradient: str | None = "Pressure-Gradient"
+    drag: str = "Drag"
+    porosity: str = "Porosity"
+    drag_coefficient: str | None = None
+    pressure_force: str | None = None
+    solid_flux: str | None = None
+
+    def __post_init__(self) -> None:
+        self.cells = self.unit.cells(self.fluid)
+        self.vertices: Any = None
+        for quantity, _ in self.read:
+            if self.unit.variable(self.cells.names(quantity)[0]).causality != "input":
+                raise ValueError(f"{self.unit.name}: {self.fluid}: expected a driven {quantity}, found another one")
+
+    @property
+    def read(self) -> list[tuple[str, str]]:
+        """What it reads: quantities of the cells, and names of data."""
+        return _named(velocity=self.velocity, pressure_gradient=self.pressure_gradient)
+
+    @property
+    def written(self) -> list[tuple[str, str]]:
+        """What it writes."""
+        return _named(
+            mean_drag=self.drag,
+            porosity=self.porosity,
+            drag_coefficient=self.drag_coefficient,
+            mean_pressure_force=self.pressure_force,
+            mean_solid_flux=self.solid_flux,
+        )
+
+    def join(self, participant: Any) -> None:
+        """Tells preCICE the mesh."""
+        _spatial(participant, self.mesh)
+        self.vertices = participant.set_mesh_vertices(self.mesh, self.cells.centres)
+
+    def take(self, participant: Any, length: float) -> None:
+        """Gives the unit what is to be at the end of a window of this length \\[s\\]."""
+        for quantity, name in self.read:
+            self.cells[quantity] = participant.read_data(self.mesh, name, self.vertices, length)
+
+    def tell(self, participant: Any) -> None:
+        """Writes what the particles did."""
+        for quantity, name in self.written:
+            participant.write_data(self.mesh, name, self.vertices, self.cells[quantity])
+
+
+def _named(**names: str | None) -> list[tuple[str, str]]:
+    """Quantities whose data have a name."""
+    return [(quantity, name) for quantity, name in names.items() if name is not None]
 
 
 class _Group:
@@ -116,58 +182,36 @@ class _Group:
         return found
 
 
-def participate(participant: Any, surfaces: Sequence[Surface], *, watch: Sequence[str] = ()) -> Table:
-    """Couples the units of these surfaces until preCICE ends the run; returns a row for each time window.
+def participate(participant: Any, meshes: Sequence[Surface | Flow], *, watch: Sequence[str] = ()) -> Table:
+    """Couples the units of these meshes until preCICE ends the run; returns a row for each time window.
 
     ``participant`` is a ``precice.Participant``. A time window is one communication step of the units, in which they
     choose their own time steps. Of the first unit, ``watch`` names further columns of the table.
     """
-    if not surfaces:
+    if not meshes:
         raise ValueError("surfaces: expected at least one, found none")
-    if len({surface.kind for surface in surfaces}) > 1:
-        raise ValueError("surfaces: expected forces of one kind, found mean and end")
-    sides, kind = [_side(participant, surface) for surface in surfaces], surfaces[0].kind
-    interface = sides[0][0]
-    for one, _, _ in sides[1:]:
-        interface = interface + one
-    groups = [(group, vertices) for _, several, vertices in sides for group in several]
-    ends = np.cumsum([len(group.names) for group, _ in groups])
-    places = [slice(int(end) - len(group.names), int(end)) for (group, _), end in zip(groups, ends, strict=True)]
-
-    def write() -> None:
-        forces = interface.force(kind)
-        for (group, vertices), place in zip(groups, places, strict=True):
-            participant.write_data(group.mesh, group.answer, vertices, group.rows(forces[place]))
-
-    def read(length: float) -> Vector:
-        given = [
-            group.values(participant.read_data(group.mesh, group.given, vertices, length)) for group, vertices in groups
-        ]
-        return np.concatenate(given)
-
+    sides = _Sides(participant, meshes)
     if participant.requires_initial_data():
-        forces = interface.force("end")
-        for (group, vertices), place in zip(groups, places, strict=True):
-            participant.write_data(group.mesh, group.answer, vertices, group.rows(forces[place]))
+        sides.write("end")
     participant.initialize()
     columns: dict[str, list[float]] = {name: [] for name in ("time", "evaluations", *watch)}
     evaluations, saved = 0, False
     while participant.is_coupling_ongoing():
         if participant.requires_writing_checkpoint():
-            interface.save()
+            sides.save()
             saved = True
         length = participant.get_max_time_step_size()
-        begin = interface.time
-        interface.advance(read(length), Step(begin, begin + length, length), kind)
+        sides.advance(length)
         evaluations += 1
-        write()
+        sides.write(sides.kind)
         participant.advance(length)
         if participant.requires_reading_checkpoint():
             if not saved:
                 raise ValueError("preCICE asked for a checkpoint back that it did not ask for before")
-            interface.restore()
+            sides.restore()
         elif participant.is_time_window_complete():
-            values = [interface.time, evaluations, *(surfaces[0].unit.number(name) for name in watch)]
+            first = meshes[0].unit
+            values = [first.time, evaluations, *(first.number(name) for name in watch)]
             for column, value in zip(columns.values(), values, strict=True):
                 column.append(float(value))
             evaluations = 0
@@ -175,10 +219,79 @@ def participate(participant: Any, surfaces: Sequence[Surface], *, watch: Sequenc
     return Table({name: np.array(values) for name, values in columns.items()})
 
 
+class _Sides:
+    """All meshes of a participant, and the units behind them."""
+
+    def __init__(self, participant: Any, meshes: Sequence[Surface | Flow]) -> None:
+        self.participant = participant
+        self.flows = [mesh for mesh in meshes if isinstance(mesh, Flow)]
+        surfaces = [mesh for mesh in meshes if isinstance(mesh, Surface)]
+        if len({surface.kind for surface in surfaces}) > 1:
+            raise ValueError("surfaces: expected forces of one kind, found mean and end")
+        self.kind: Force = surfaces[0].kind if surfaces else "mean"
+        sides = [_side(participant, surface) for surface in surfaces]
+        self.interface = sides[0][0] if sides else None
+        for one, _, _ in sides[1:]:
+            assert self.interface is not None
+            self.interface = self.interface + one
+        self.groups = [(group, vertices) for _, several, vertices in sides for group in several]
+        ends = np.cumsum([len(group.names) for group, _ in self.groups])
+        self.places = [
+            slice(int(end) - len(group.names), int(end)) for (group, _), end in zip(self.groups, ends, strict=True)
+        ]
+        for flow in self.flows:
+            flow.join(participant)
+        moved = self.interface.units if self.interface else []
+        # Units of which no surface is coupled.
+        self.others = list({id(flow.unit): flow.unit for flow in self.flows if flow.unit not in moved}.values())
+        self.states: list[State | None] = [None] * len(self.others)
+
+    def write(self, kind: Force) -> None:
+        """Writes forces of this kind, and what the particles did to the fluid."""
+        forces = self.interface.force(kind) if self.interface else np.zeros(0)
+        for (group, vertices), place in zip(self.groups, self.places, strict=True):
+            self.participant.write_data(group.mesh, group.answer, vertices, group.rows(forces[place]))
+        for flow in self.flows:
+            flow.tell(self.participant)
+
+    def advance(self, length: float) -> None:
+        """Makes a time window of this length \\[s\\] with what preCICE has for its end."""
+        for flow in self.flows:
+            flow.take(self.participant, length)
+        if self.interface:
+            begin = self.interface.time
+            given = [
+                group.values(self.participant.read_data(group.mesh, group.given, vertices, length))
+                for group, vertices in self.groups
+            ]
+            self.interface.advance(np.concatenate(given), Step(begin, begin + length, length), self.kind)
+        for unit in self.others:
+            unit.step(length)
+
+    def save(self) -> None:
+        """Saves the states of all units."""
+        if self.interface:
+            self.interface.save()
+        self.states = [unit.save(state) for unit, state in zip(self.others, self.states, strict=True)]
+
+    def restore(self) -> None:
+        """Restores the saved states."""
+        if self.interface:
+            self.interface.restore()
+        for unit, state in zip(self.others, self.states, strict=True):
+            assert state is not None
+            unit.restore(state)
+
+
+def _spatial(participant: Any, mesh: str) -> None:
+    """Refuses a mesh that is not of space."""
+    if participant.get_mesh_dimensions(mesh) != 3:
+        raise ValueError(f"{mesh}: expected a mesh of 3 dimensions, found another one")
+
+
 def _side(participant: Any, surface: Surface) -> tuple[Interface, list[_Group], NDArray[np.int32]]:
     """Tells preCICE the mesh of a surface; its directions and its vertices."""
-    if participant.get_mesh_dimensions(surface.mesh) != 3:
-        raise ValueError(f"{surface.mesh}: expected a mesh of 3 dimensions, found another one")
+    _spatial(participant, surface.mesh)
     groups = [_Group(surface, *named) for named in surface.named()]
     if len({group.by_node for group in groups}) > 1:
         told = ", ".join(f"{group.where} {'of nodes' if group.by_node else 'of the whole'}" for group in groups)

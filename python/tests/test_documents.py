@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from conftest import DROP, ROOT
+from test_fluid import WET, coupled
 from test_heated_bed import FROZEN
 
 
@@ -31,6 +32,17 @@ def test_a_script_of_fmpy_alone_keeps_heat_to_rounding(script):
     found = script("coupling.md", "import fmpy\nfrom fmpy", FROZEN, ("50.0", "0.05"))
     given = 0.05 * (found["start"] - found["wall"])
     assert found["heat"] > 0.1 and abs(found["heat"] - given) < 1e-12 * given
+
+
+def test_a_column_of_water_by_fmpy_alone_is_that_of_cograin(script, opened):
+    found = script("fluid.md", "import fmpy\nimport numpy", WET)
+    assert found["repetition"] < 199
+    unit = opened(WET)
+    column, coupling = coupled(unit, 1000.0, 0.0, 1e-3)
+    for _ in coupling.steps(5e-3):
+        pass
+    assert np.abs(found["new"] - column.velocity).max() < 1e-5
+    assert np.abs(found["dp"] - column.pressure_gradient).max() < 10.0
 
 
 def test_one_line_of_fmpy_lags_by_a_step_unless_its_signals_are_early(script):

@@ -119,6 +119,8 @@ quantities! {
     SpecificHeat Some("J/(kg.K)"), 0 2 -2 0 -1;
     /// Heat flow over area and temperature \[W/(m² K)\]
     HeatTransferCoefficient Some("W/(m2.K)"), 1 0 -3 0 -1;
+    /// Heat flow over temperature \[W/K\]
+    Conductance Some("W/K"), 1 2 -3 0 -1;
     /// A number of things over time \[1/s\]
     CountRate Some("1/s"), 0 0 -1 0;
     /// Force over velocity, mass and length \[1/(m s)\]

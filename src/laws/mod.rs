@@ -3,8 +3,10 @@
 pub mod bond;
 pub mod column;
 pub mod contact;
+pub mod convection;
 pub mod drag;
 mod kept;
+pub(crate) mod law_row;
 pub mod motion;
 pub mod region;
 pub mod surface;

@@ -2,6 +2,7 @@
 
 use super::{AxisMotion, Cell, Grid, MotionPlane, ParticleShape, SceneDraft};
 use crate::base::document::Mistake;
+use crate::laws::convection::ConvectionModel;
 use crate::laws::drag::DragModel;
 use serde::Deserialize;
 
@@ -26,6 +27,23 @@ pub struct Fluid {
     pub drag: DragModel,
     /// Whether it brakes the rotation of the particles.
     pub torque: bool,
+    /// What lets heat flow into it; none where none does.
+    pub heat: Option<FluidHeat>,
+}
+
+/// What lets heat flow between a fluid and the particles.
+#[derive(Clone, Copy, Debug)]
+pub struct FluidHeat {
+    /// The law of its convection.
+    pub law: ConvectionModel,
+    /// Its temperature, at the start where the outside gives it \[K\].
+    pub temperature: f64,
+    /// Whether the outside gives it.
+    pub is_driven: bool,
+    /// Its conductivity \[W/(m K)\].
+    pub conductivity: f64,
+    /// Its specific heat \[J/(kg K)\].
+    pub specific_heat: f64,
 }
 
 /// What a gradient of the pressure contains.
@@ -104,8 +122,9 @@ impl Fluid {
 
     /// Numbers of the unit for each cell of its grid.
     pub(in crate::scene) fn numbers(&self) -> u64 {
-        let inputs = u64::from(self.velocity.is_driven()) + u64::from(self.pressure.is_some());
-        5 + 3 * inputs
+        let vectors = u64::from(self.velocity.is_driven()) + 3 * u64::from(self.pressure.is_some());
+        let of_heat = self.heat.map_or(0, |heat| 2 + u64::from(heat.is_driven));
+        5 + 3 * vectors + of_heat
     }
 }
 
@@ -119,7 +138,7 @@ fn grid_objections(fluid: &Fluid, scene: &SceneDraft) -> Vec<(&'static str, Stri
         found.push(("porosity", message));
     }
     let goes_through = |axis: &usize| grid.shape.repeats[*axis];
-    let repeats = |axis: &usize| scene.cell.as_ref().is_some_and(|cell: &Cell| cell.lattice.periodic[*axis]);
+    let repeats = |axis: &usize| scene.cell.as_ref().is_some_and(|cell| cell.lattice.periodic[*axis]);
     if let Some(axis) = (0..3).filter(repeats).find(|axis| !goes_through(axis)) {
         let axis = AxisMotion::WORDS[axis];
         let message = format!(
@@ -136,46 +155,42 @@ fn grid_objections(fluid: &Fluid, scene: &SceneDraft) -> Vec<(&'static str, Stri
 pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<(String, &'static str, Mistake)> {
     let Some(fluid) = &scene.fluid else { return Vec::new() };
     let table = format!("fluid.{}", fluid.name);
-    let mut found = Vec::new();
-    let mut refuse = |table: String, key, message: &str| {
-        found.push((table, key, Mistake::Refused { message: message.to_owned() }));
-    };
-    for (key, message) in grid_objections(fluid, scene) {
-        refuse(table.clone(), key, &message);
-    }
-    if fluid.porosity.is_none() && fluid.grid.is_none() && !fluid.drag.is_of_one_sphere() {
-        let law = fluid.drag.name();
+    let of_convection = fluid.heat.map(|heat| (heat.law.name(), heat.law.is_of_one_sphere()));
+    let laws = [Some((fluid.drag.name(), fluid.drag.is_of_one_sphere())), of_convection];
+    let dense = laws.into_iter().flatten().find(|(_, is_of_one_sphere)| !is_of_one_sphere);
+    if let (None, None, Some((law, _))) = (fluid.porosity, fluid.grid, dense) {
         let expected = format!(
             "the law {law} needs it, or a grid: part of the space that the particles leave to the fluid, 1 for single grains"
         );
-        found.push((table, "porosity", Mistake::Missing { expected }));
-        return found;
+        return vec![(table, "porosity", Mistake::Missing { expected })];
     }
+    let of_grid = grid_objections(fluid, scene).into_iter().map(|(key, message)| (table.clone(), key, message));
+    let all = of_grid.chain(unsupported(fluid, scene));
+    all.map(|(table, key, message)| (table, key, Mistake::Refused { message })).collect()
+}
+
+/// What a fluid is not modelled with: table, key and why.
+fn unsupported(fluid: &Fluid, scene: &SceneDraft) -> Vec<(String, &'static str, String)> {
+    let mut found = Vec::new();
+    let mut refuse = |table: &str, key, message: &str| found.push((table.to_owned(), key, message.to_owned()));
     if scene.particles.iter().any(|particle| particle.shape == ParticleShape::Disc) {
-        refuse("run".to_owned(), "plane_particles", "expected spheres in a fluid, found \"discs\"");
+        refuse("run", "plane_particles", "expected spheres in a fluid, found \"discs\"");
     }
     if scene.run.plane == Some(MotionPlane::Xz) && fluid.velocity.flows_along(1) {
         let message = "expected a velocity without a component along y with plane = \"xz\", found one";
-        refuse(table.clone(), "velocity", message);
+        refuse(&format!("fluid.{}", fluid.name), "velocity", message);
     }
-    if scene.cell.as_ref().is_some_and(super::Cell::moves) {
-        refuse(
-            "cell".to_owned(),
-            "motion",
-            "expected a cell that keeps its edges in a fluid, found one that is deformed",
-        );
+    if scene.cell.as_ref().is_some_and(Cell::moves) {
+        refuse("cell", "motion", "expected a cell that keeps its edges in a fluid, found one that is deformed");
     }
     if let Some(damping) = scene.damping.first() {
         let message = "expected no global damping in a fluid, found one: it brakes what sinks as drag does, and grains would settle \
                        too slowly";
-        refuse(format!("damping.{}", damping.name), "", message);
+        refuse(&format!("damping.{}", damping.name), "", message);
     }
     if scene.heat.frozen {
-        refuse(
-            "heat".to_owned(),
-            "frozen",
-            "expected motion in a fluid, found frozen = true, with which nothing moves",
-        );
+        let message = "expected motion in a fluid, found frozen = true, with which nothing moves";
+        refuse("heat", "frozen", message);
     }
     let floats = |boundary: &&super::Boundary| {
         !boundary.shape.members().is_empty() && boundary.axes.iter().any(AxisMotion::is_free)
@@ -183,7 +198,7 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<(String, &'static 
     if let Some(group) = scene.boundaries.iter().find(floats) {
         let message = "expected a group that stays or is moved from outside in a fluid, found one that forces move: its drag is not \
                        modelled, take a clump";
-        refuse(format!("boundary.{}", group.name), "motion", message);
+        refuse(&format!("boundary.{}", group.name), "motion", message);
     }
     found
 }

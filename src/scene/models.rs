@@ -1,4 +1,4 @@
-//! The sub-models, rules of breakage, shapes and drag laws that scenes may name.
+//! The sub-models, rules of breakage, shapes and laws of fluids that scenes may name.
 
 use crate::laws::bond::breakage::{self, Breakage, BreakageRow};
 use crate::laws::column::{Column, TEMPERATURE};
@@ -6,11 +6,12 @@ use crate::laws::contact::{
     self, Cohesion, CohesionModel, CohesionRow, Heat, HeatModel, HeatRow, ModelKeys, ModelRow, Normal, NormalModel,
     NormalRow, Property, Rolling, RollingModel, RollingRow, Tangential, TangentialModel, TangentialRow, property,
 };
+use crate::laws::convection::{self, Convection, ConvectionRow};
 use crate::laws::drag::{self, Drag, DragRow};
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
 use crate::laws::wear::{self, Wear, WearRow};
 
-/// The sub-models, rules of breakage, shapes and drag laws that scenes may name: those of the program, and those that another crate adds.
+/// The sub-models, rules of breakage, shapes and laws of fluids that scenes may name: those of the program, and those that another crate adds.
 ///
 /// ```
 /// use cograin::contact::normal::hertz::Hertz;
@@ -38,6 +39,8 @@ pub struct Models {
     pub(crate) shapes: Vec<&'static ShapeRow>,
     /// Drag laws of fluids.
     pub(crate) drag: Vec<&'static DragRow>,
+    /// Laws of convection of fluids.
+    pub(crate) convection: Vec<&'static ConvectionRow>,
     /// Models of wear.
     pub(crate) wear: Vec<&'static WearRow>,
     /// Columns of particles that scenes may ask for.
@@ -62,6 +65,7 @@ impl Models {
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
             drag: drag::STANDARD.to_vec(),
+            convection: convection::STANDARD.to_vec(),
             wear: wear::STANDARD.to_vec(),
             columns: vec![&TEMPERATURE],
         }
@@ -112,6 +116,12 @@ impl Models {
     /// The same and a drag law, in place of one of the same name.
     pub fn with_drag<D: Drag>(mut self) -> Self {
         put(&mut self.drag, DragRow::of::<D>(), DragRow::name);
+        self
+    }
+
+    /// The same and a law of convection, in place of one of the same name.
+    pub fn with_convection<C: Convection>(mut self) -> Self {
+        put(&mut self.convection, ConvectionRow::of::<C>(), ConvectionRow::name);
         self
     }
 

@@ -91,6 +91,8 @@ COURSES = {
     "hopper": Course(interval=1e-3, steps=40),  # the first grains reach the gate after 31 ms
     "plate": Course(interval=1e-4, steps=4),
     "wheel": Course(interval=1e-3, steps=20),
+    "fluidised_column": Course(interval=1e-3, steps=8),
+    "settling": Course(interval=1e-3, steps=8),
     "brazilian": Course(interval=1e-5, steps=8, amplitude=-2e-6),
 }
 

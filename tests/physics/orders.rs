@@ -55,10 +55,7 @@ fn errors(case: &Case, scheme: Scheme) -> [f64; 4] {
 }
 
 /// The order over three halvings, printed with the errors.
-#[allow(
-    clippy::print_stdout,
-    reason = "the figures of docs/physics.md are what this test prints with --nocapture"
-)]
+#[allow(clippy::print_stdout, reason = "the figures of docs/physics.md are what this test prints with --nocapture")]
 pub(super) fn order(case: &Case, scheme: Scheme) -> f64 {
     let errors = errors(case, scheme);
     let order = (errors[0] / errors[3]).log2() / 3.0;

@@ -165,8 +165,13 @@ pub(crate) fn book(medium: &mut Medium, state: &mut State, kick: Kick, context: 
             None => over(count, context, exchanged),
             Some(grid) => {
                 let volume = grid.cell_volume();
-                let share = |body: usize, given: &mut Given| shared(exchanged(body), volume, given);
-                sums.over((count, &mut cells), context, share, (Exchanged::default(), Exchanged::plus))
+                let join = (Exchanged::default(), Exchanged::plus as fn(_, _) -> _);
+                let whole = |body: usize, given: &mut Given| shared::<EXCHANGED>(exchanged(body), volume, given);
+                let drag = |body: usize, given: &mut Given| shared::<1>(exchanged(body), volume, given);
+                match fluid.rows() {
+                    1 => sums.over((count, &mut cells), context, drag, join),
+                    _ => sums.over((count, &mut cells), context, whole, join),
+                }
             }
         };
         sum = sum.plus(all);
@@ -201,10 +206,11 @@ fn over<'a>(
 
 /// Gives the cells of this volume \[m³\] around a body what it does to the fluid there. Returns what is exchanged.
 #[inline(always)]
-fn shared(one: Option<(Here, Exchanged)>, volume: f64, given: &mut Given) -> Exchanged {
+fn shared<const ROWS: usize>(one: Option<(Here, Exchanged)>, volume: f64, given: &mut Given) -> Exchanged {
     let Some((here, exchanged)) = one else { return Exchanged::default() };
     if let Some(weights) = &here.weights {
-        given.share(weights, exchanged.on_fluid(volume));
+        let rows = exchanged.on_fluid(volume);
+        given.share::<ROWS>(weights, std::array::from_fn(|row| rows[row]));
     }
     exchanged
 }

@@ -11,6 +11,7 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
     let fluid = scene.fluid.as_ref()?;
     let cells = fluid.cells(&scene.grids);
     let mut velocity = Course::at_rest(cells, fluid.velocity.at_start());
+    let rows = if fluid.pressure.is_some() { EXCHANGED } else { 1 };
     let porosity = fluid.porosity.unwrap_or(1.0).max(LEAST);
     velocity.now.iter_mut().for_each(|row| row[3] = porosity);
     Some(FluidState {
@@ -19,8 +20,13 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
             .gradient_at_start(scene.gravity)
             .map_or_else(Course::default, |gradient| Course::at_rest(cells, gradient)),
         porosity: vec![1.0; if fluid.grid.is_some() { cells } else { 0 }],
-        exchanged: vec![[0.0; 4]; EXCHANGED * cells],
-        mean: vec![[0.0; 4]; EXCHANGED * cells],
+        temperature: fluid
+            .heat
+            .map_or_else(Course::default, |heat| Course::at_rest(cells, [heat.temperature, 0.0, 0.0])),
+        heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
+        mean_heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
+        exchanged: vec![[0.0; 4]; rows * cells],
+        mean: vec![[0.0; 4]; rows * cells],
         ..FluidState::default()
     })
 }
@@ -30,13 +36,16 @@ pub(crate) fn begin(fluid: Option<&mut FluidState>, interval: f64) {
     let Some(fluid) = fluid else { return };
     fluid.velocity.begin(interval);
     fluid.pressure_gradient.begin(interval);
+    fluid.temperature.begin(interval);
     fluid.exchanged.fill([0.0; 4]);
+    fluid.heat.fill([0.0; 4]);
 }
 
 /// Ends a communication step after this time \[s\].
 pub(crate) fn end(fluid: Option<&mut FluidState>, elapsed: f64) {
     if let Some(fluid) = fluid.filter(|_| elapsed > 0.0) {
-        for (mean, sum) in fluid.mean.iter_mut().zip(&fluid.exchanged) {
+        let means = fluid.mean.iter_mut().chain(&mut fluid.mean_heat);
+        for (mean, sum) in means.zip(fluid.exchanged.iter().chain(&fluid.heat)) {
             *mean = sum.map(|part| part / elapsed);
         }
     }
@@ -54,6 +63,9 @@ pub(crate) fn advance(fluid: &Fluid, state: &mut FluidState, progress: &Progress
     if fluid.pressure.is_some() {
         state.pressure_gradient.advance(0.0);
     }
+    if fluid.heat.is_some_and(|heat| heat.is_driven) {
+        state.temperature.advance(left());
+    }
 }
 
 /// Takes the inputs of another state at the start: all is there at once. Returns whether anything changed.
@@ -61,5 +73,6 @@ pub(crate) fn put(scene: &Scene, fluid: Option<&mut FluidState>, given: Option<&
     let driven = scene.fluid.as_ref().is_some_and(|fluid| fluid.velocity.is_driven());
     let (Some(fluid), Some(given)) = (fluid, given) else { return false };
     let pushed = fluid.pressure_gradient.put(&given.pressure_gradient);
-    (driven && fluid.velocity.put(&given.velocity)) || pushed
+    let warmed = fluid.temperature.put(&given.temperature);
+    (driven && fluid.velocity.put(&given.velocity)) || pushed || warmed
 }

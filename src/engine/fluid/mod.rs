@@ -13,12 +13,14 @@
 //! half a step later, which makes the scheme of second order whatever the law.
 
 mod book;
+mod convection;
 mod course;
 mod porosity;
 mod stream;
 mod sums;
 
 pub(crate) use book::{Kick, book};
+pub(crate) use convection::{convect, rate};
 pub(crate) use course::{advance, begin, begun, end, put};
 pub(crate) use porosity::renew;
 pub(crate) use stream::Stream;
@@ -27,9 +29,10 @@ use crate::base::number::Vector;
 use crate::base::threads::Context;
 use crate::engine::integration::{Fields, Rows};
 use crate::engine::state::{Clumps, State};
+use crate::laws::convection::Nusselt;
 use crate::laws::drag::Factor;
 use crate::laws::region::Grid;
-use crate::scene::{Pressure, Scene};
+use crate::scene::{FluidHeat, Pressure, Scene};
 use std::f64::consts::PI;
 use std::sync::Arc;
 use stream::Here;
@@ -54,6 +57,18 @@ pub(crate) struct Medium {
     diameters: Vec<f64>,
     /// Room for sums over the cells of the grid.
     sums: CellSums,
+    /// What lets heat flow into it, where any does.
+    heat: Option<Convects>,
+}
+
+/// What lets heat flow into a fluid.
+struct Convects {
+    /// The law.
+    law: Arc<dyn Nusselt>,
+    /// Conductivity \[W/(m K)\].
+    conductivity: f64,
+    /// Viscosity and specific heat over conductivity.
+    prandtl: f64,
 }
 
 /// Volume of a sphere of this diameter \[m³\].
@@ -89,6 +104,11 @@ impl Medium {
             buoyancy: if contains_rest { Vector::zero() } else { Vector::from(scene.gravity) * -fluid.density },
             diameters: scene.clump_shapes.iter().map(|shape| diameter(shape.volume)).collect(),
             sums: CellSums::default(),
+            heat: fluid.heat.map(|FluidHeat { law, conductivity, specific_heat, .. }| Convects {
+                law: law.law(),
+                conductivity,
+                prandtl: specific_heat * fluid.viscosity / conductivity,
+            }),
         })
     }
 
@@ -104,9 +124,19 @@ impl Medium {
 
     /// Drag over the velocity of a sphere against which the fluid moves so \[kg/s\].
     fn drag(&self, diameter: f64, porosity: f64, slip: Vector) -> f64 {
-        let Self { density, viscosity, .. } = *self;
-        let reynolds = density * diameter * porosity * slip.length() / viscosity;
-        3.0 * PI * viscosity * diameter * porosity * self.law.factor(porosity, reynolds)
+        let reynolds = self.reynolds(diameter, porosity, slip);
+        3.0 * PI * self.viscosity * diameter * porosity * self.law.factor(porosity, reynolds)
+    }
+
+    /// Reynolds number of that.
+    fn reynolds(&self, diameter: f64, porosity: f64, slip: Vector) -> f64 {
+        self.density * diameter * porosity * slip.length() / self.viscosity
+    }
+
+    /// Conductance between the fluid and a sphere against which it moves so \[W/K\]; 0 where no heat flows.
+    fn conductance(&self, diameter: f64, porosity: f64, slip: Vector) -> f64 {
+        let Some(Convects { law, conductivity, prandtl }) = &self.heat else { return 0.0 };
+        PI * conductivity * diameter * law.nusselt(porosity, self.reynolds(diameter, porosity, slip), *prandtl)
     }
 }
 

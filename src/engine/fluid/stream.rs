@@ -3,7 +3,7 @@
 use super::{Flow, Medium, volume};
 use crate::base::number::Vector;
 use crate::engine::state::{Clumps, FluidState, Row, State};
-use crate::laws::region::{Grid, Weights};
+use crate::laws::region::{Centres, Weights};
 use std::f64::consts::PI;
 
 /// A fluid as it flows now.
@@ -13,9 +13,11 @@ pub(crate) struct Stream<'a> {
     medium: &'a Medium,
     /// How it flows in the first cell: everywhere, without a grid.
     first: Here<'a>,
-    /// Its grid, the velocity in each cell \[m/s\] with the porosity behind it, and the gradient of the pressure there \[Pa/m\], if one
+    /// The centres of the cells of its grid, the velocity in each \[m/s\] with the porosity behind it, and the gradient of the pressure there \[Pa/m\], if one
     /// is given.
-    cells: Option<(&'a Grid, &'a [Row], &'a [Row])>,
+    cells: Option<(Centres, &'a [Row], &'a [Row])>,
+    /// The temperature in each cell \[K\], along x; empty where no heat flows into it.
+    temperatures: &'a [Row],
 }
 
 /// A fluid as it flows at a point.
@@ -53,23 +55,29 @@ impl<'a> Stream<'a> {
         let gradient = gradients.first().map_or(Vector::zero(), |row| Vector::from(*row));
         let (velocity, push) = (Vector::new(x, y, z), medium.buoyancy - gradient);
         let first = Here { medium, velocity, porosity, push, weights: None };
-        Self { medium, first, cells: medium.grid.as_ref().map(|grid| (grid, flow, gradients)) }
+        let cells = medium.grid.map(|grid| (grid.centres(), flow, gradients));
+        Self { medium, first, cells, temperatures: &fluid.temperature.now }
     }
 
     /// How it flows at a point \[m\]; none where there is no fluid.
     #[inline(always)]
     pub(crate) fn at(&self, point: Vector) -> Option<Here<'a>> {
-        let Some((grid, flow, gradients)) = self.cells else { return Some(self.first) };
-        if !grid.holds(point) {
+        let Some((centres, flow, gradients)) = &self.cells else { return Some(self.first) };
+        if !centres.holds(point) {
             return None;
         }
-        let weights = grid.weights(point);
+        let weights = centres.weights(point);
         let [x, y, z, porosity] = between(flow, &weights);
         let mut push = self.medium.buoyancy;
         if !gradients.is_empty() {
             push = push - Vector::from(between(gradients, &weights));
         }
         Some(Here { medium: self.medium, velocity: Vector::new(x, y, z), porosity, push, weights: Some(weights) })
+    }
+
+    /// Its temperature where it flows so \[K\].
+    pub(super) fn temperature(&self, here: &Here) -> f64 {
+        here.weights.map_or(self.temperatures[0][0], |weights| between(self.temperatures, &weights)[0])
     }
 
     /// Whether it brakes rotation.
@@ -107,6 +115,12 @@ impl Here<'_> {
     #[inline(always)]
     pub(super) fn push(&self, diameter: f64) -> Vector {
         self.push * volume(diameter)
+    }
+
+    /// Conductance between it and a sphere of this diameter \[m\] with this velocity \[m/s\] \[W/K\].
+    #[inline(always)]
+    pub(super) fn conductance(&self, diameter: f64, velocity: Vector) -> f64 {
+        self.medium.conductance(diameter, self.porosity, self.velocity - velocity)
     }
 
     /// What it does to a sphere of this diameter \[m\] with this velocity \[m/s\] and angular velocity \[rad/s\], on which another force acts

@@ -20,6 +20,12 @@ pub(super) struct CellSums {
 pub(super) struct Given<'a>(&'a mut [Row]);
 
 impl Given<'_> {
+    /// Gives a row to the only cell.
+    #[inline(always)]
+    pub(super) fn add(&mut self, row: Row) {
+        add(&mut self.0[0], &row);
+    }
+
     /// Shares rows out by weights among cells that have so many.
     #[inline(always)]
     pub(super) fn share<const ROWS: usize>(&mut self, weights: &Weights, rows: [Row; ROWS]) {

@@ -9,7 +9,7 @@ use crate::base::number::Vector;
 use crate::base::quantity::BoundaryIndex;
 use crate::engine::bodies::loads::came_to;
 use crate::engine::state::contacts::TOUCHING;
-use crate::engine::state::fluid::{Course, FluidField};
+use crate::engine::state::fluid::FluidField;
 use crate::engine::state::ledger::Source;
 
 /// How far a one-sided difference displaces a body, over the median overlap of the contacts that the input moves. By so much the force
@@ -220,19 +220,18 @@ impl Simulation {
         if boundary.capacity > 0.0 { boundary.capacity * warmer / length } else { warmer }
     }
 
-    /// By how much what the fluid is given is displaced in a communication step of this length \[s\]: a part of the speeds in it, or of what
-    /// takes a particle past its radius; the gradient of its pressure by what accelerates the fluid so. Drag follows it smoothly.
+    /// By how much what the fluid is given is displaced in a communication step of this length \[s\]: a part of what it is, or of the speeds in
+    /// it, of what takes a particle past its radius and of the gradient of the pressure that accelerates it so. Drag follows it smoothly.
     fn usual_fluid(&self, field: FluidField, length: f64) -> f64 {
-        let largest = |course: &Course| course.now.iter().map(|row| Vector::from(*row).length()).fold(0.0, f64::max);
-        let most = self.state.fluid.as_ref().map_or(0.0, |fluid| largest(fluid.given(field)));
+        let Some((fluid, keys)) = self.state.fluid.as_ref().zip(self.scene.fluid.as_ref()) else { return WARMER };
+        let sizes = fluid.given(field).now.iter().map(|&[x, y, z, _]| Vector::new(x, y, z).length());
         let speed = self.system().fastest().max(self.search.smallest_radius().min(f64::MAX) / length);
-        WARMER
-            * match field {
-                FluidField::Velocity => most.max(speed),
-                FluidField::PressureGradient => {
-                    most.max(self.scene.fluid.as_ref().map_or(1.0, |fluid| fluid.density) * speed / length)
-                }
-            }
+        let least = match field {
+            FluidField::Velocity => speed,
+            FluidField::PressureGradient => keys.density * speed / length,
+            FluidField::Temperature => 0.0,
+        };
+        WARMER * sizes.fold(least, f64::max)
     }
 
     /// The rate of an insertion, or that of one particle in a communication step of this length \[s\] where that is more.

@@ -109,6 +109,7 @@ impl Simulation {
         if let (Some(fluid), Some(given)) = (&mut self.state.fluid, &other.state.fluid) {
             fluid.velocity.take_inputs(&given.velocity);
             fluid.pressure_gradient.take_inputs(&given.pressure_gradient);
+            fluid.temperature.take_inputs(&given.temperature);
         }
         take_rates(&mut self.state, &other.state);
     }

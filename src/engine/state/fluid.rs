@@ -36,26 +36,46 @@ pub struct FluidState {
     pub velocity: Course,
     /// Gradient of the pressure \[Pa/m\]; empty where none is given.
     pub pressure_gradient: Course,
+    /// Temperature \[K\], along x; empty where no heat flows into it.
+    pub temperature: Course,
     /// Part of each cell that no particle fills, at the last communication point; empty without a grid.
     #[serde(with = "super::plain")]
     pub porosity: Vec<f64>,
     /// Length of the time step at whose end the present loads were found; 0 before the first \[s\].
     pub step: f64,
-    /// What it exchanged in the present communication step, [`EXCHANGED`] rows for each cell: impulse of the drag of the particles on it
-    /// \[N s\], and behind it the sum over its time of drag over the velocity \[kg\]; that of the force of its pressure \[N s\]; and
-    /// superficial way of the particles \[m\].
+    /// What it exchanged in the present communication step, rows for each cell: impulse of the drag of the particles on it
+    /// \[N s\], and behind it the sum over its time of drag over the velocity \[kg\]; where a gradient of its pressure is given,
+    /// the impulse of that, too \[N s\], and superficial way of the particles \[m\].
     #[serde(with = "super::plain")]
     pub exchanged: Vec<Row>,
     /// The same over time, of the last communication step \[N\], \[N s/m\], \[N\], \[m/s\].
     #[serde(with = "super::plain")]
     pub mean: Vec<Row>,
+    /// Heat of the particles into it in the present communication step \[J\], and behind it the sum over its time of the conductances
+    /// \[J/K\]; empty where no heat flows into it.
+    #[serde(with = "super::plain")]
+    pub heat: Vec<Row>,
+    /// The same over time: heat flow of the particles into it, mean over the last communication step \[W\], and conductance \[W/K\].
+    #[serde(with = "super::plain")]
+    pub mean_heat: Vec<Row>,
     /// Work of the fluid since counting began: drag along its own velocity, and buoyancy along those of the particles \[J\].
     pub work: f64,
 }
 
-clone_in_place!(FluidState { velocity, pressure_gradient, porosity, step, exchanged, mean, work });
+clone_in_place!(FluidState {
+    velocity,
+    pressure_gradient,
+    temperature,
+    porosity,
+    step,
+    exchanged,
+    mean,
+    heat,
+    mean_heat,
+    work
+});
 
-/// How many rows a cell has of what it exchanges.
+/// How many rows a cell has of what it exchanges where a gradient of its pressure is given. Elsewhere it has one.
 pub const EXCHANGED: usize = 3;
 
 impl Course {
@@ -131,14 +151,27 @@ pub enum FluidField {
     Velocity,
     /// The gradient of its pressure.
     PressureGradient,
+    /// Its temperature, along x.
+    Temperature,
 }
 
 impl FluidState {
+    /// How many rows each cell has of what it exchanges.
+    pub fn rows(&self) -> usize {
+        if self.pressure_gradient.now.is_empty() { 1 } else { EXCHANGED }
+    }
+
+    /// A row of what a cell exchanged, mean over the last communication step.
+    pub fn mean_of(&self, cell: usize, row: usize) -> Row {
+        self.mean[self.rows() * cell + row]
+    }
+
     /// What it is given.
     pub fn given(&self, field: FluidField) -> &Course {
         match field {
             FluidField::Velocity => &self.velocity,
             FluidField::PressureGradient => &self.pressure_gradient,
+            FluidField::Temperature => &self.temperature,
         }
     }
 
@@ -147,6 +180,7 @@ impl FluidState {
         match field {
             FluidField::Velocity => &mut self.velocity,
             FluidField::PressureGradient => &mut self.pressure_gradient,
+            FluidField::Temperature => &mut self.temperature,
         }
     }
 
@@ -157,14 +191,17 @@ impl FluidState {
 
     /// Whether it can be one.
     pub(super) fn check(&self) -> Result<(), StateFault> {
-        let Self { velocity, pressure_gradient, porosity, step, exchanged, mean, work } = self;
+        let Self { velocity, pressure_gradient, temperature, porosity, step, exchanged, mean, heat, mean_heat, work } =
+            self;
         let count = velocity.now.len();
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
-        let there = [exchanged.len(), mean.len()] == [EXCHANGED * count; 2];
+        temperature.check(temperature.now.len())?;
+        let there = [exchanged.len(), mean.len()] == [self.rows() * count; 2]
+            && [heat.len(), mean_heat.len()] == [temperature.now.len(); 2];
         demand(there, "fluid", exchanged.len(), "rows for each cell of its grid")?;
-        all_finite(exchanged.as_flattened(), "fluid")?;
-        all_finite(mean.as_flattened(), "fluid")?;
+        let rows = [exchanged, mean, heat, mean_heat];
+        rows.into_iter().try_for_each(|rows| all_finite(rows.as_flattened(), "fluid"))?;
         all_finite(porosity, "fluid")?;
         all_finite(&[*step, *work], "fluid")?;
         let fills = velocity.now.iter().all(|row| row[3] > 0.0 && row[3] <= 1.0);
@@ -174,7 +211,10 @@ impl FluidState {
 
     /// Whether it is of the scene that another one is of.
     pub(super) fn check_same(&self, other: &Self) -> Result<(), StateFault> {
-        let lengths = |it: &Self| [it.velocity.now.len(), it.pressure_gradient.now.len(), it.porosity.len()];
+        let lengths = |it: &Self| {
+            let given = [&it.velocity, &it.pressure_gradient, &it.temperature].map(|course| course.now.len());
+            (given, it.porosity.len())
+        };
         demand(lengths(self) == lengths(other), "fluid", self.velocity.now.len(), "as many cells as the scene has")
     }
 }

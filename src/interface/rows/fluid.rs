@@ -2,7 +2,7 @@
 
 use super::row::{At, Each, OUTPUT, Present, Row, Write};
 use crate::engine::simulation::Input;
-use crate::engine::state::fluid::{Course, EXCHANGED, FluidField};
+use crate::engine::state::fluid::{Course, FluidField};
 use crate::engine::state::{FluidState, State};
 use crate::interface::{Quantity, Value};
 use crate::scene::{Fluid, Scene};
@@ -23,6 +23,15 @@ const GRADIENT_GIVEN: Option<Write> = Some(Write {
     held: |state, at| of_state(state, |fluid| input(&fluid.pressure_gradient, at)),
     start: |scene, at| gradient_at_start(scene).map_or(0.0, |gradient| gradient[at.axis()]),
     input: |at| Input::Fluid(FluidField::PressureGradient, at.element(), at.axis()),
+});
+
+/// How its temperature is given.
+const TEMPERATURE_GIVEN: Option<Write> = Some(Write {
+    set: |simulation, at, value| simulation.set_fluid(FluidField::Temperature, place(at), value),
+    set_rate: |simulation, at, rate| simulation.set_fluid_rate(FluidField::Temperature, place(at), rate),
+    held: |state, at| of_state(state, |fluid| input(&fluid.temperature, at)),
+    start: |scene, _| scene.fluid.as_ref().and_then(|fluid| fluid.heat).map_or(0.0, |heat| heat.temperature),
+    input: |at| Input::Fluid(FluidField::Temperature, at.element(), at.axis()),
 });
 
 /// The cell and the axis of a variable.
@@ -90,7 +99,7 @@ const MEAN_DRAG: Row = Row {
     quantity: Quantity::Force,
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none()),
     follows_inputs_at_start: false,
-    read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element()][at.axis()]),
+    read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 0)[at.axis()]),
     ..OUTPUT
 };
 
@@ -103,7 +112,44 @@ const DRAG_COEFFICIENT: Row = Row {
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none()),
     minimum: Some(0.0),
     follows_inputs_at_start: false,
-    read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element()][3]),
+    read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 0)[3]),
+    ..OUTPUT
+};
+
+/// Its temperature, where it is an input.
+const TEMPERATURE: Row = Row {
+    name: "temperature",
+    each: Each::Fluid,
+    description: "temperature of {owner}, to be reached at the end of the communication step; at initialisation taken at once",
+    quantity: Quantity::Temperature,
+    exists: |scene, _| is(scene, |fluid| fluid.grid.is_none() && fluid.heat.is_some_and(|heat| heat.is_driven)),
+    write: TEMPERATURE_GIVEN,
+    read: |now, at: At| of(now, |fluid| input(&fluid.temperature, at)),
+    ..OUTPUT
+};
+
+/// Heat that flows into it.
+const MEAN_HEAT_FLOW: Row = Row {
+    name: "mean_heat_flow",
+    each: Each::Fluid,
+    description: "heat flow of the particles into {owner}, mean over the last communication step",
+    quantity: Quantity::HeatFlow,
+    exists: |scene, _| is(scene, |fluid| fluid.grid.is_none() && fluid.heat.is_some()),
+    follows_inputs_at_start: false,
+    read: |now, at: At| of(now, |fluid| fluid.mean_heat[at.element()][0]),
+    ..OUTPUT
+};
+
+/// Conductance to it.
+const HEAT_CONDUCTANCE: Row = Row {
+    name: "heat_conductance",
+    each: Each::Fluid,
+    description: "conductance between the particles and {owner}, in sum, mean over the last communication step",
+    quantity: Quantity::Conductance,
+    exists: |scene, _| is(scene, |fluid| fluid.grid.is_none() && fluid.heat.is_some()),
+    minimum: Some(0.0),
+    follows_inputs_at_start: false,
+    read: |now, at: At| of(now, |fluid| fluid.mean_heat[at.element()][1]),
     ..OUTPUT
 };
 
@@ -113,9 +159,10 @@ fn is_solved(scene: &Scene) -> bool {
 }
 
 /// Variables of the fluid, inputs first.
-pub(super) static OF_FLUID: [Row; 6] = [
+pub(super) static OF_FLUID: [Row; 9] = [
     VELOCITY,
     GRADIENT,
+    TEMPERATURE,
     Row {
         name: "velocity",
         each: Each::FluidAxis,
@@ -127,6 +174,8 @@ pub(super) static OF_FLUID: [Row; 6] = [
     },
     MEAN_DRAG,
     DRAG_COEFFICIENT,
+    MEAN_HEAT_FLOW,
+    HEAT_CONDUCTANCE,
     Row {
         name: "work",
         each: Each::Fluid,
@@ -139,7 +188,7 @@ pub(super) static OF_FLUID: [Row; 6] = [
 ];
 
 /// Variables of each cell of its grid, inputs first.
-pub(super) static OF_FLUID_CELLS: [Row; 7] = [
+pub(super) static OF_FLUID_CELLS: [Row; 10] = [
     Row {
         each: Each::FluidCellAxis,
         description: "velocity of {owner} between the particles at the centre of cell {element} along {axis}, to be reached at the end of \
@@ -153,6 +202,13 @@ pub(super) static OF_FLUID_CELLS: [Row; 7] = [
                       step; at initialisation taken at once",
         exists: |scene, _| is(scene, |fluid| fluid.pressure.is_some()),
         ..GRADIENT
+    },
+    Row {
+        each: Each::FluidCell,
+        description: "temperature of {owner} at the centre of cell {element}, to be reached at the end of the communication step; at \
+                      initialisation taken at once",
+        exists: |scene, _| is(scene, |fluid| fluid.heat.is_some_and(|heat| heat.is_driven)),
+        ..TEMPERATURE
     },
     Row {
         name: "porosity",
@@ -176,12 +232,26 @@ pub(super) static OF_FLUID_CELLS: [Row; 7] = [
         ..DRAG_COEFFICIENT
     },
     Row {
+        each: Each::FluidCell,
+        description: "heat flow of the particles into {owner} in cell {element}, by their weights between centres, mean over the last \
+                      communication step",
+        exists: |scene, _| is(scene, |fluid| fluid.heat.is_some()),
+        ..MEAN_HEAT_FLOW
+    },
+    Row {
+        each: Each::FluidCell,
+        description: "conductance between the particles and {owner}, in sum over their weights in cell {element}, mean over the last \
+                      communication step",
+        exists: |scene, _| is(scene, |fluid| fluid.heat.is_some()),
+        ..HEAT_CONDUCTANCE
+    },
+    Row {
         name: "mean_pressure_force",
         each: Each::FluidCellAxis,
         description: "force of the particles on {owner} in cell {element} along {axis} that answers that of the whole gradient of its \
                       pressure on them, by their weights between centres, mean over the last communication step",
         exists: |scene, _| is_solved(scene),
-        read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element() + 1][at.axis()]),
+        read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 1)[at.axis()]),
         ..MEAN_DRAG
     },
     Row {
@@ -191,7 +261,7 @@ pub(super) static OF_FLUID_CELLS: [Row; 7] = [
                       section, by their weights between centres, mean over the last communication step",
         quantity: Quantity::Velocity,
         exists: |scene, _| is_solved(scene),
-        read: |now, at: At| of(now, |fluid| fluid.mean[EXCHANGED * at.element() + 2][at.axis()]),
+        read: |now, at: At| of(now, |fluid| fluid.mean_of(at.element(), 2)[at.axis()]),
         ..MEAN_DRAG
     },
 ];

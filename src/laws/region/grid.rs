@@ -58,12 +58,6 @@ impl Grid {
             .then(|| self.number([0, 1, 2].map(|axis| self.along(axis, point[axis]))))
     }
 
-    /// Whether a point is in the box, which goes on where space repeats.
-    pub fn holds(&self, point: Vector) -> bool {
-        let ([lower, upper], point) = (self.corners, point.to_array());
-        (0..3).all(|axis| self.repeats[axis] || (lower[axis]..upper[axis]).contains(&point[axis]))
-    }
-
     /// Hands out each cell that has a part of a sphere, with the volume of the part \[m³\]. In sum the parts are the part of the sphere in
     /// the box, to rounding of the sphere's volume.
     pub fn parts_of_sphere(&self, centre: Vector, radius: f64, mut hand: impl FnMut(usize, f64)) {
@@ -113,29 +107,20 @@ impl Grid {
         });
     }
 
-    /// The cells between whose centres a point \[m\] lies, with weights linear along each axis. Fields that are linear in space come out
-    /// as they are between the outermost centres. Beyond these the value of the outermost cell holds, or, where space repeats, that
-    /// between the last cell and the first.
+    /// Its cells as a lattice of their centres.
+    pub fn centres(&self) -> Centres {
+        let ([lower, upper], counts) = (self.corners, self.counts.map(|count| count as usize));
+        Centres {
+            corners: self.corners,
+            per_length: [0, 1, 2].map(|axis| counts[axis] as f64 / (upper[axis] - lower[axis])),
+            counts,
+            repeats: self.repeats,
+        }
+    }
+
+    /// The cells between whose centres a point \[m\] lies ([`Centres::weights`]).
     pub fn weights(&self, point: Vector) -> Weights {
-        let (point, edges) = (point.to_array(), self.edges());
-        let between = [0, 1, 2].map(|axis| {
-            let count = self.counts[axis] as usize;
-            let place = (point[axis] - self.corners[0][axis]) / edges[axis] - 0.5;
-            if self.repeats[axis] {
-                let (whole, all) = (place.floor(), count as f64);
-                let first = (whole - all * (whole / all).floor()) as usize % count;
-                return ([first, (first + 1) % count], place - whole);
-            }
-            let place = place.clamp(0.0, (count - 1) as f64);
-            let first = (place as usize).min(count.saturating_sub(2));
-            ([first, (first + 1).min(count - 1)], place - first as f64)
-        });
-        [0, 1, 2, 3, 4, 5, 6, 7].map(|number: usize| {
-            let upper = [0, 1, 2].map(|axis| number >> axis & 1);
-            let cell = self.number([0, 1, 2].map(|axis| between[axis].0[upper[axis]]));
-            let weight = |axis: usize| if upper[axis] == 1 { between[axis].1 } else { 1.0 - between[axis].1 };
-            (cell, weight(0) * weight(1) * weight(2))
-        })
+        self.centres().weights(point)
     }
 
     /// Number of the cell at a place along each axis.
@@ -180,6 +165,71 @@ impl Grid {
         let [lower, upper] = self.corners;
         let outside = |axis: usize| extent[axis][1] < lower[axis] || extent[axis][0] > upper[axis];
         (!(0..3).any(outside)).then(|| [0, 1].map(|end| [0, 1, 2].map(|axis| self.along(axis, extent[axis][end]))))
+    }
+}
+
+/// The centres of the cells of a grid, between which fields are linear: what many points ask for.
+#[derive(Clone, Copy, Debug)]
+pub struct Centres {
+    /// Lower and upper corner of the box \[m\].
+    corners: [[f64; 3]; 2],
+    /// Cells for each length along each axis \[1/m\].
+    per_length: [f64; 3],
+    /// How many cells stand along each axis.
+    counts: [usize; 3],
+    /// Whether space repeats along each axis.
+    repeats: [bool; 3],
+}
+
+impl Centres {
+    /// Whether a point is in the box, which goes on where space repeats.
+    #[inline(always)]
+    pub fn holds(&self, point: Vector) -> bool {
+        let ([lower, upper], point) = (self.corners, point.to_array());
+        (0..3).all(|axis| self.repeats[axis] || (lower[axis]..upper[axis]).contains(&point[axis]))
+    }
+
+    /// The cells between whose centres a point \[m\] lies, with weights linear along each axis. Fields that are linear in space come out
+    /// as they are between the outermost centres. Beyond these the value of the outermost cell holds, or, where space repeats, that
+    /// between the last cell and the first.
+    #[inline(always)]
+    pub fn weights(&self, point: Vector) -> Weights {
+        let point = point.to_array();
+        let [nx, ny, _] = self.counts;
+        let strides = [1, nx, nx * ny];
+        let along = |axis: usize| {
+            let ([first, second], share) = self.along(axis, point[axis]);
+            [(first * strides[axis], 1.0 - share), (second * strides[axis], share)]
+        };
+        let (along_x, along_y, along_z) = (along(0), along(1), along(2));
+        // Loops, as closures over arrays are called and not inlined here.
+        let mut weights = [(0, 0.0); 8];
+        let mut place = 0;
+        for (k, z) in along_z {
+            for (j, y) in along_y {
+                let (row, share) = (j + k, y * z);
+                for (i, x) in along_x {
+                    weights[place] = (i + row, x * share);
+                    place += 1;
+                }
+            }
+        }
+        weights
+    }
+
+    /// The two cells along an axis between whose centres a place \[m\] lies, and the weight of the second.
+    #[inline(always)]
+    fn along(&self, axis: usize, place: f64) -> ([usize; 2], f64) {
+        let count = self.counts[axis];
+        let place = (place - self.corners[0][axis]) * self.per_length[axis] - 0.5;
+        if self.repeats[axis] {
+            let (whole, all) = (place.floor(), count as f64);
+            let first = (whole - all * (whole / all).floor()) as usize % count;
+            return ([first, (first + 1) % count], place - whole);
+        }
+        let place = place.clamp(0.0, (count - 1) as f64);
+        let first = (place as usize).min(count.saturating_sub(2));
+        ([first, (first + 1).min(count - 1)], place - first as f64)
     }
 }
 

@@ -16,7 +16,7 @@ mod sphere;
 use crate::base::number::Vector;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
-pub use grid::{Grid, Weights};
+pub use grid::{Centres, Grid, Weights};
 pub(crate) use keys::Keys;
 pub use solid::Solid;
 

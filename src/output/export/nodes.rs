@@ -5,16 +5,23 @@ use super::{PackageError, Resource};
 use crate::scene::{Boundary, Grid, Scene};
 use std::fmt::Write;
 
-/// The tables of a scene: two for each mesh, one for each grid.
+/// The tables of a scene: two for each mesh, one for each grid, one for the fluid on a grid.
 pub(super) fn tables(scene: &Scene) -> Vec<Resource> {
     let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0);
-    meshes.flat_map(|mesh| [nodes(mesh), triangles(mesh)]).chain(scene.grids.iter().map(cells)).collect()
+    let grids = scene.grids.iter().map(|grid| cells(&grid.name, grid));
+    let fluid = fluid(scene).map(|(name, grid)| cells(name, grid));
+    meshes.flat_map(|mesh| [nodes(mesh), triangles(mesh)]).chain(grids).chain(fluid).collect()
 }
 
-/// Refuses names of meshes and grids that cannot be those of files on every system.
+/// The name of the fluid, and its grid.
+fn fluid(scene: &Scene) -> Option<(&String, &Grid)> {
+    scene.fluid.as_ref().and_then(|fluid| Some((&fluid.name, &scene.grids[fluid.grid?])))
+}
+
+/// Refuses names of meshes, grids and fluids that cannot be those of files on every system.
 pub(super) fn check_names(scene: &Scene) -> Result<(), PackageError> {
     let meshes = scene.boundaries.iter().filter(|boundary| boundary.driven_nodes() > 0).map(|mesh| &mesh.name);
-    let names = meshes.chain(scene.grids.iter().map(|grid| &grid.name));
+    let names = meshes.chain(scene.grids.iter().map(|grid| &grid.name)).chain(fluid(scene).map(|(name, _)| name));
     let mut known: Vec<&String> = Vec::new();
     for name in names {
         let twin = known.iter().find(|other| other.eq_ignore_ascii_case(name));
@@ -52,12 +59,12 @@ fn triangles(mesh: &Boundary) -> Resource {
     Resource::new(format!("{}.triangles.csv", mesh.name), table)
 }
 
-/// `<grid>.cells.csv`: number, centre and volume of each cell.
-fn cells(grid: &Grid) -> Resource {
+/// `<grid>.cells.csv` and `<fluid>.cells.csv`: number, centre and volume of each cell.
+fn cells(name: &str, grid: &Grid) -> Resource {
     let (mut table, volume) = ("cell,x,y,z,volume\n".to_owned(), grid.shape.cell_volume());
     for cell in 0..grid.shape.cells() {
         let [x, y, z] = grid.shape.centre(cell);
         let _ = writeln!(table, "{},{x:?},{y:?},{z:?},{volume:?}", cell + 1);
     }
-    Resource::new(format!("{}.cells.csv", grid.name), table)
+    Resource::new(format!("{name}.cells.csv"), table)
 }

@@ -18,6 +18,13 @@ impl Simulation {
         }
     }
 
+    /// Lets heat flow between the fluid and what stands in it.
+    pub(super) fn convect(&mut self, step: &mut TimeStep) {
+        if let Some(medium) = &mut self.medium {
+            fluid::convect(medium, &mut self.state, step.context);
+        }
+    }
+
     /// Finds what conducts now, before anything flows.
     pub(in crate::engine::simulation) fn look_at_heat(&mut self) {
         let Self { transfer, scene, passes, state, .. } = self;
@@ -25,6 +32,8 @@ impl Simulation {
             transfer.look((scene, passes), state);
             transfer::tell(scene, state);
         }
+        let by_fluid = self.medium.as_ref().map_or(0.0, |medium| fluid::rate(medium, &self.state, &self.standing()));
+        self.state.heat.iter_mut().for_each(|heat| heat.rate += by_fluid);
     }
 
     /// Adds gravity, applied forces and global damping to the loads on particles.

@@ -57,7 +57,7 @@ fn names(written: &RawTables, faults: &mut Faults) {
     let probes = written.probes.iter().map(|(name, _)| ("probe", name));
     let derived = written.derived.iter().map(|(name, _)| ("derived", name));
     let mut told: Vec<(&str, &String)> = boundaries.chain(regions).collect();
-    let fluids = written.fluid.iter().map(|(name, ..)| ("fluid", name));
+    let fluids = written.fluid.iter().map(|fluid| ("fluid", &fluid.name));
     for (kind, name) in fluids.chain(grids).chain(insertions).chain(outlets).chain(meters).chain(probes).chain(derived)
     {
         if let Some((other, _)) = told.iter().find(|(_, known)| *known == name) {

@@ -1,33 +1,80 @@
 //! The fluid.
 
-use super::raw_tables::RawTables;
-use super::tables;
+use super::particles::ReadParticles;
+use super::raw_tables::{FluidTables, RawTables};
+use super::{heat, tables};
 use crate::base::document::{Faults, Mistake};
 use crate::base::quantity::Porosity;
-use crate::scene::file::tables::{FluidTable, VelocityKey};
-use crate::scene::{AxisMotion, Fluid, FluidVelocity, Source};
+use crate::laws::contact::Material;
+use crate::scene::file::tables::{FluidTable, TemperatureKey, VelocityKey};
+use crate::scene::{AxisMotion, ColumnStart, Fluid, FluidHeat, FluidVelocity, Source};
 
 /// The fluid of a scene, if it has one.
-pub(super) fn fluid(written: &RawTables, source: &Source, faults: &mut Faults) -> Option<Fluid> {
-    let (name, keys, drag) = written.fluid.as_ref()?;
+pub(super) fn fluid(
+    written: &RawTables,
+    source: &Source,
+    particles: (&[Material], &ReadParticles, &[ColumnStart]),
+    faults: &mut Faults,
+) -> Option<Fluid> {
+    let tables = written.fluid.as_ref()?;
+    let FluidTables { name, keys, drag, .. } = tables;
     let table = format!("fluid.{name}");
     answer(keys, &table, faults);
     let known: Vec<String> = written.grids.iter().map(|(name, _)| name.clone()).collect();
-    let grid = keys.grid.as_ref().map(|grid| known.iter().position(|name| name == grid).ok_or(grid));
-    if let Some(Err(grid)) = grid {
-        faults.add(&table, "grid", Mistake::UnknownName { found: grid.clone(), kind: "grid", known: known.clone() });
-    }
+    let grid = keys.grid.as_ref().map(|grid| known.iter().position(|name| name == grid).ok_or(grid)).transpose();
+    let grid = grid.map_err(|grid| {
+        faults.add(&table, "grid", Mistake::UnknownName { found: grid.clone(), kind: "grid", known });
+    });
     Some(Fluid {
         name: name.clone(),
         density: keys.density.get(),
         viscosity: keys.viscosity.get(),
         velocity: velocity(keys, source, &table, faults),
-        grid: grid.and_then(Result::ok),
+        grid: grid.ok()?,
         pressure: keys.pressure,
         porosity: keys.porosity.map(Porosity::get),
         drag: *drag,
         torque: keys.torque,
+        heat: heat_of(tables, &table, particles, faults),
     })
+}
+
+/// Its temperature and what lets heat flow into it, where any does.
+fn heat_of(
+    tables: &FluidTables,
+    table: &str,
+    (materials, born, columns): (&[Material], &ReadParticles, &[ColumnStart]),
+    faults: &mut Faults,
+) -> Option<FluidHeat> {
+    let keys = &tables.keys;
+    let given = [
+        ("temperature", keys.temperature.is_some(), "its temperature [K], or \"driven\""),
+        ("conductivity", keys.conductivity.is_some(), "its conductivity [W/(m K)]"),
+        ("specific_heat", keys.specific_heat.is_some(), "its specific heat [J/(kg K)]"),
+    ];
+    for (key, is_there, what) in given {
+        if is_there && tables.convection.is_none() {
+            let what_for = "no heat flows into the fluid".to_owned();
+            let expected = format!("a table [{table}.heat.<law>] beside it, or leave it out");
+            faults.add(table, key, Mistake::InvalidCombination { what: what_for, expected });
+        } else if !is_there && tables.convection.is_some() {
+            faults.add(table, key, Mistake::Missing { expected: format!("{what}: heat flows into it") });
+        }
+    }
+    let (temperature, is_driven) = match keys.temperature? {
+        TemperatureKey::Given(temperature) => (temperature, false),
+        TemperatureKey::DrivenFrom(temperature) => (temperature, true),
+        TemperatureKey::Driven => match heat::mean(materials, born, columns) {
+            Some(temperature) => (temperature, true),
+            None => {
+                let expected = "{ driven = .. } with that at the start [K]: there are no particles that have one";
+                faults.add(table, "temperature", Mistake::Missing { expected: expected.to_owned() });
+                return None;
+            }
+        },
+    };
+    let (conductivity, specific_heat) = (keys.conductivity?.get(), keys.specific_heat?.get());
+    Some(FluidHeat { law: tables.convection?, temperature, is_driven, conductivity, specific_heat })
 }
 
 /// Answers keys for what is not modelled.

@@ -55,7 +55,7 @@ pub(super) fn temperature(
 }
 
 /// Mean temperature of the particles by their heat capacities \[K\]; none where none has one.
-fn mean(materials: &[Material], born: &ReadParticles, columns: &[ColumnStart]) -> Option<f64> {
+pub(super) fn mean(materials: &[Material], born: &ReadParticles, columns: &[ColumnStart]) -> Option<f64> {
     let temperatures = &columns.iter().find(|start| start.column.name == TEMPERATURE.name)?.particles;
     let (mut heat, mut capacity, first) = (0.0, 0.0, *temperatures.first()?);
     for (particle, temperature) in born.particles.iter().zip(temperatures) {

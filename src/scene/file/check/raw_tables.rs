@@ -11,7 +11,9 @@ use crate::laws::column::Column;
 use crate::laws::contact::{
     CohesionModel, HeatModel, Model, ModelRow, NoKeys, NormalModel, Properties, Property, RollingModel, TangentialModel,
 };
+use crate::laws::convection::ConvectionModel;
 use crate::laws::drag::DragModel;
+use crate::laws::law_row::{LawModel, LawRow};
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
 use crate::laws::wear::WearModel;
@@ -60,8 +62,8 @@ pub(in crate::scene::file) struct RawTables {
     pub(super) heat: HeatTable,
     /// `[heat_source.<name>]`
     pub(super) heat_sources: Named<HeatSourceTable>,
-    /// `[fluid.<name>]`, with its drag law
-    pub(super) fluid: Option<(String, FluidTable, DragModel)>,
+    /// `[fluid.<name>]`, with its laws
+    pub(super) fluid: Option<FluidTables>,
     /// `[region.<name>]`
     pub(super) regions: Named<region::Keys>,
     /// `[grid.<name>]`
@@ -353,8 +355,20 @@ fn boundaries(document: &Document, models: &Models, faults: &mut Faults) -> Name
     boundaries
 }
 
+/// `[fluid.<name>]` as it is written.
+pub(super) struct FluidTables {
+    /// Its name.
+    pub(super) name: String,
+    /// Its keys.
+    pub(super) keys: FluidTable,
+    /// The law of its drag.
+    pub(super) drag: DragModel,
+    /// The law of its convection, if heat flows into it.
+    pub(super) convection: Option<ConvectionModel>,
+}
+
 /// The fluid, if there is one.
-fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<(String, FluidTable, DragModel)> {
+fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<FluidTables> {
     let names = names(document, "fluid", faults);
     if names.len() > 1 {
         let (found, expected) = (names.join(" and "), "one fluid: two would overlap".to_owned());
@@ -364,29 +378,42 @@ fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<(S
     let name = names.into_iter().next()?;
     let path = format!("fluid.{name}");
     let table = document.read(&path, faults);
-    let laws = format!("{path}.drag");
+    let drag = law_of_fluid(document, (&path, "drag"), &models.drag, faults)?;
+    let convects = document.has(&format!("{path}.heat"));
+    let convection =
+        if convects { Some(law_of_fluid(document, (&path, "heat"), &models.convection, faults)?) } else { None };
+    Some(FluidTables { name, keys: table?, drag, convection })
+}
+
+/// The one law of a kind that a fluid names.
+fn law_of_fluid<F: ?Sized>(
+    document: &Document,
+    (path, kind): (&str, &'static str),
+    rows: &[&'static LawRow<F>],
+    faults: &mut Faults,
+) -> Option<LawModel<F>> {
+    let laws = format!("{path}.{kind}");
     if !document.is_table(&laws) {
         let expected = format!("a table [{laws}.<law>]");
         let mistake = match document.has(&laws) {
             true => Mistake::Unexpected { found: document.written(&laws).to_owned(), expected },
             false => Mistake::Missing { expected },
         };
-        faults.add(&path, "drag", mistake);
+        faults.add(path, kind, mistake);
         return None;
     }
     let chosen = document.names(&laws);
     let [law] = &chosen[..] else {
         let found = if chosen.is_empty() { "none".to_owned() } else { chosen.join(" and ") };
-        faults.add(&laws, "", Mistake::Unexpected { found, expected: "one drag law".to_owned() });
+        faults.add(&laws, "", Mistake::Unexpected { found, expected: format!("one {kind} law") });
         return None;
     };
-    let Some(row) = models.drag.iter().find(|row| row.name() == law) else {
-        let known = models.drag_names().into_iter().map(str::to_owned).collect();
-        faults.add(&format!("{laws}.{law}"), "", Mistake::UnknownModel { found: law.clone(), kind: "drag", known });
+    let Some(row) = rows.iter().find(|row| row.name() == law) else {
+        let known = rows.iter().map(|row| row.name().to_owned()).collect();
+        faults.add(&format!("{laws}.{law}"), "", Mistake::UnknownModel { found: law.clone(), kind, known });
         return None;
     };
-    let drag = row.read(document, &laws, faults)?;
-    Some((name, table?, drag))
+    row.read(document, &laws, faults)
 }
 
 /// The models of wear of a boundary.
@@ -438,8 +465,8 @@ fn model<F>(
     };
     let Some(row) = known.iter().find(|row| row.name() == name) else {
         let known = known.iter().map(|row| row.name().to_owned()).collect();
-        let table = format!("{path}.{name}");
-        faults.add(&table, "", Mistake::UnknownModel { found: name.clone(), kind, known });
+        let unknown = || Mistake::UnknownModel { found: name.clone(), kind, known };
+        faults.add(&format!("{path}.{name}"), "", messages::absent(name).unwrap_or_else(unknown));
         return None;
     };
     row.read(document, &path, faults)

@@ -169,6 +169,11 @@ fn fluid(fluid: &Fluid, at: &mut Table) {
         at.wrong("porosity", format!("{porosity:?}"), "a number above 0 and at most 1");
     }
     at.finite("velocity", &fluid.velocity.at_start());
+    if let Some(heat) = fluid.heat {
+        at.positive("temperature", heat.temperature);
+        at.positive("conductivity", heat.conductivity);
+        at.positive("specific_heat", heat.specific_heat);
+    }
 }
 
 /// `[run]`, `gravity` and `[domain]`

@@ -33,6 +33,8 @@ pub(super) const ROWS: &[Row] = &[
     row("fluid.*.density", "kg/m3", Range::POSITIVE, "density of the fluid"),
     row("fluid.*.viscosity", "Pa.s", Range::POSITIVE, "dynamic viscosity of the fluid"),
     row("fluid.*.porosity", "1", Range::RESTITUTION, "part of space that the particles leave to the fluid"),
+    row("fluid.*.conductivity", "W/(m.K)", Range::POSITIVE, "conductivity of the fluid"),
+    row("fluid.*.specific_heat", "J/(kg.K)", Range::POSITIVE, "specific heat of the fluid"),
     row("damping.*.linear", "1", Range::FRACTION, "global damping: fraction of the unbalanced force"),
     row("damping.*.angular", "1", Range::FRACTION, "global damping: fraction of the unbalanced torque"),
     row("bond.*.create_distance", "m", Range::POSITIVE, "distance of the centres below which bonds are made"),

@@ -1,5 +1,6 @@
 //! A fluid, as the scene writes it.
 
+use super::TemperatureKey;
 use crate::base::document::keys;
 use crate::base::quantity::{Porosity, Positive, Triple};
 use crate::laws::motion::{Axis, PrescribedMotion};
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 
 keys! {
-    /// `[fluid.<name>]`, without its drag law.
+    /// `[fluid.<name>]`, without its laws.
     #[derive(Debug)]
     pub(in crate::scene::file) struct FluidTable {
         /// Density ρ \[kg/m³\].
@@ -30,6 +31,12 @@ keys! {
         /// Whether it brakes rotation.
         #[serde(default)]
         pub(in crate::scene::file) torque: bool = "`false`",
+        /// Temperature \[K\]: a number; `"driven"` from the mean of the particles on, or `{ driven = 300.0 }`.
+        pub(in crate::scene::file) temperature: Option<TemperatureKey> = "required by convection",
+        /// Conductivity \[W/(m K)\].
+        pub(in crate::scene::file) conductivity: Option<Positive> = "required by convection",
+        /// Specific heat \[J/(kg K)\].
+        pub(in crate::scene::file) specific_heat: Option<Positive> = "required by convection",
     } beside {
         /// Answered: not modelled.
         pub(in crate::scene::file) lift: Option<IgnoredAny>,
@@ -38,6 +45,9 @@ keys! {
         /// Read on its own.
         #[serde(rename = "drag")]
         _drag: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "heat")]
+        _heat: Option<IgnoredAny>,
     }
 }
 
