@@ -31,12 +31,11 @@ def least(porosity):
 
 
 def course(unit, interval, end, highest):
-    """The velocity grows from 0 to the highest [m/s] at the end [s]; a table, and porosities of the cells."""
+    """The velocity grows from 0 to the highest [m/s] at the end [s]; a table, porosities, the weight [Pa]."""
     side = FluidInterface(unit, "air")
     column = Column(side, DENSITY, gravity=-GRAVITY, inflow=lambda time: highest * time / end)
     begun = solid(column)
-    watch = {"floor.force.z": lambda: unit["floor.force.z"], "energy.lost.drag": lambda: unit.number("air.work")}
-    coupling = Coupling(side, column, QuasiNewton(), interval, watch=watch)
+    coupling = Coupling(side, column, QuasiNewton(), interval)
     rows, porosities, worst = [], [], 0.0
     for row in coupling.steps(end):
         rest = DENSITY * GRAVITY * column.height * len(column.porosity)
@@ -49,7 +48,8 @@ def course(unit, interval, end, highest):
     print(f"the volume of the beads in the cells changed by {worst:.1e} of itself")
     names = ["time", "velocity", "pressure_drop", "floor.force.z", "height"]
     units = dict(zip(names, ["s", "m/s", "Pa", "N", "m"], strict=True))
-    return Table(dict(zip(names, np.array(rows).T, strict=True)), units), np.array(porosities)
+    table = Table(dict(zip(names, np.array(rows).T, strict=True)), units)
+    return table, np.array(porosities), begun * (SOLID - DENSITY) * GRAVITY / AREA
 
 
 def solid(column):
@@ -63,21 +63,26 @@ def top(column):
     return column.height * full.sum() / full[1:3].mean()
 
 
-def report(table):
-    """Prints what the bed did beside the closed forms."""
+def report(table, weight):
+    """Prints what the bed did beside the closed forms, once the air carries its weight [Pa]."""
     velocity, drop = table["velocity"], table["pressure_drop"]
-    weight = drop[velocity > 0.8 * velocity[-1]].mean()
-    beads = -table["floor.force.z"][2:20].mean() / AREA
-    print(f"the beads weigh {beads:.1f} Pa; the air carries {weight:.1f} Pa in the mean of the last fifth")
-    height = table["height"][5:40].mean()
-    porosity = 1.0 - weight / (height * (SOLID - DENSITY) * GRAVITY)
-    packed = (velocity > 0.1 * velocity[-1]) & (drop < 0.7 * weight)
-    ratio = drop[packed] / (height * ergun(velocity[packed], porosity))
+    carried = drop[velocity > 0.8 * velocity[-1]].mean()
+    print(f"the beads weigh {weight:.1f} Pa in air; it carries {carried:.1f} Pa in the mean of the last fifth")
+    if drop.max() < weight:
+        return
+    crossing = int(np.argmax(drop > weight))
+    height = table["height"][crossing // 2 : crossing].mean()
+    porosity = packed(weight, height)
+    rest = slice(crossing // 3, 2 * crossing // 3)
+    ratio = drop[rest] / (height * ergun(velocity[rest], porosity))
     print(f"at rest: porosity {porosity:.3f}, drop over Ergun's {ratio.mean():.3f} ± {ratio.std():.3f}")
-    crossing = velocity[np.argmax(drop > weight)] if (drop > weight).any() else np.nan
-    print(
-        f"the drop meets the weight at {crossing:.3f} m/s; Ergun's minimum of fluidisation is {least(porosity):.3f} m/s"
-    )
+    print(f"the drop meets the weight at {velocity[crossing]:.3f} m/s", end="; ")
+    print(f"Ergun's minimum of fluidisation is {least(porosity):.3f} m/s")
+
+
+def packed(weight, height):
+    """Porosity of a bed of this weight [Pa] and height [m]."""
+    return 1.0 - weight / (height * (SOLID - DENSITY) * GRAVITY)
 
 
 def main():
@@ -96,14 +101,14 @@ def main():
         shutil.rmtree(options.output / "frames", ignore_errors=True)
         frames = {"parameters": {"run.frames": str(options.output / "frames")}}
     with Unit(path, **frames) as unit:
-        table, porosities = course(unit, options.interval, options.end, options.rate * options.end)
+        table, porosities, weight = course(unit, options.interval, options.end, options.rate * options.end)
     rows = np.array([table[name] for name in table]).T
     np.savetxt(options.output / "couple.csv", rows, delimiter=",", header=",".join(table), comments="", fmt="%.17g")
-    report(table)
+    report(table, weight)
     if not options.no_picture:
         from picture import draw
 
-        draw(options.output / "fluidised_column.png", options.output / "frames", table, porosities, ergun)
+        draw(options.output / "fluidised_column.png", options.output / "frames", (table, porosities, weight), (ergun, packed))
 
 
 if __name__ == "__main__":

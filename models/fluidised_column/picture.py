@@ -6,14 +6,15 @@ from cograin.results import frames_in
 from matplotlib.figure import Figure
 
 
-def draw(path, folder, table, porosities, ergun):
+def draw(path, folder, found, laws):
     """Writes the pressure drop beside Ergun's law, porosities over height and velocity, and beads at three of them."""
     figure = Figure(figsize=(12.0, 5.0), layout="constrained")
     drops, heights, *beads = figure.subplots(1, 5, width_ratios=[1.5, 1.5, 0.4, 0.4, 0.4])
+    (table, porosities, weight), (ergun, packed) = found, laws
     velocity, drop = table["velocity"], table["pressure_drop"]
-    weight = drop[velocity > 0.8 * velocity[-1]].mean()
-    height = table["height"][5:40].mean()
-    porosity = 1.0 - weight / (height * (2500.0 - 1.2) * 9.81)
+    crossing = int(np.argmax(drop > weight))
+    height = table["height"][crossing // 2 : crossing].mean()
+    porosity = packed(weight, height)
     drops.plot(velocity, drop, color="#d55e00", linewidth=0.8, label="beads and column")
     slow = velocity[height * ergun(velocity, porosity) < 1.3 * weight]
     law = f"Ergun, porosity {porosity:.3f}"

@@ -2,7 +2,7 @@
 
 A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
 `Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `RigidBody`, a
-`HeatCapacity`, a `UnitPartner`. An `Exchange` says how both sides agree on a communication step: `GaussSeidel`,
+`HeatCapacity`, a `UnitPartner`, a flow of `cograin.fluid`. An `Exchange` says how both sides agree on a communication step: `GaussSeidel`,
 `Jacobi` and `Verlet` are explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step;
 `Quadratic` is of fourth order.
 `couple` runs both sides and returns a `Record`.

