@@ -2,9 +2,9 @@
 
 A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
 `Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `RigidBody`, a
-`HeatCapacity`, a `UnitPartner`, a flow of `cograin.fluid`. An `Exchange` says how both sides agree on a communication step: `GaussSeidel`,
-`Jacobi` and `Verlet` are explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton` repeat the step;
-`Quadratic` is of fourth order.
+`HeatCapacity`, a flow of `cograin.fluid`, a `UnitPartner`. An `Exchange` says how both sides agree on a communication
+step: `GaussSeidel`, `Jacobi` and `Verlet` are explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton`
+repeat the step; `Quadratic` is of fourth order.
 `couple` runs both sides and returns a `Record`.
 
 The nodes of a mesh that the outside moves are arrays, `Nodes`; a `Mapping` joins them with the nodes of another mesh.

@@ -108,8 +108,8 @@ class FluidInterface:
         """What `force` gives, by its parts."""
         fields, rest = np.split(force, [5 * self._size])
         porosity, coefficient = rest.reshape(2, -1)
-        vectors = fields.reshape(5, len(self.cells), len(self.axes))
-        return Response(*vectors, np.maximum(porosity, LEAST), coefficient)
+        velocity, gradient, drag, pressure, flux = fields.reshape(5, len(self.cells), len(self.axes))
+        return Response(velocity, gradient, drag, pressure, flux, np.maximum(porosity, LEAST), coefficient)
 
     def force(self, kind: Force) -> Vector:
         """What the particles did in the last step, behind the velocities and gradients under which they did it."""
