@@ -49,7 +49,7 @@ particle = {middle!r}
 history_interval = {interval!r}
 columns = ["middle.temperature"]
 """
-EULER = [1.0, 0.5, 0.25, 0.125]  # time steps over C/ΣH
+EULER = [0.5, 0.25, 0.125]  # time steps over C/ΣH
 
 
 def conductances():
@@ -96,19 +96,39 @@ def run(program, step):
     return max(abs(one - other) for one, other in zip(found, exact(times), strict=True)) / (HOT - COLD), cost
 
 
+def draw(found, path):
+    """Error over cost, as a picture: name, error, cost [s] of each method."""
+    from cograin.plot import style
+
+    figure, [panel] = style.figure(width=5.0, height=3.2)
+    euler, [stabilised] = found[:-1], found[-1:]
+    panel.loglog([cost for *_, cost in euler], [error for _, error, _ in euler], "o-", color=style.COLOURS[0], label="Euler")
+    for name, error, cost in euler:
+        panel.annotate(name, (cost, error), (5, 4), textcoords="offset points", fontsize="small")
+    panel.loglog(*reversed(stabilised[1:]), "s", color=style.COLOURS[1], label="stabilised, the default")
+    panel.set(xlabel="user time in s", ylabel="error over first difference", xlim=(0.1, 10.0), ylim=(1e-6, 1e-4))
+    panel.legend(frameon=False, loc="lower right")
+    figure.savefig(path, dpi=110)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cograin", metavar="FILE", default=str(ROOT / "target/release/cograin"))
+    parser.add_argument("--picture", metavar="FILE", help="draws error over cost")
     options = parser.parse_args()
     between, below = conductances()
     # A sphere at the plate has five neighbours, one inside six.
     longest = capacity() / max(6.0 * between, 5.0 * between + below)
     print(f"C/ΣH = {longest:.4g} s")
+    told = []
     for share in [*EULER, None]:
         step = "" if share is None else f"step = {share * longest!r}\n"
         error, cost = min((run(options.cograin, step) for _ in range(2)), key=lambda found: found[1])
         name = "stabilised" if share is None else f"Euler, {share:g} C/ΣH"
         print(f"{name}: error {error:.2e}, {cost:.2f} s", flush=True)
+        told.append((f"{share or 0:g} C/ΣH", error, cost))
+    if options.picture:
+        draw(told, options.picture)
 
 
 if __name__ == "__main__":

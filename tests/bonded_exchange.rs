@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// A bonded block that flies into an outlet, strikes a plane beside it, and breaks in part; a second one, bonded to a plane that
 /// pulls it apart, in a domain that takes away what leaves it. Both books are kept.
-fn torn(formulation: &str, contact: &str, damping: &str, more: &str) -> String {
+pub(crate) fn torn(formulation: &str, contact: &str, damping: &str, more: &str) -> String {
     format!(
         r#"
 gravity = [0.0, 0.0, -9.81]
@@ -94,7 +94,7 @@ fn bonds(simulation: &Simulation) -> [u64; 4] {
 }
 
 /// Damping of the first law.
-const DAMPED: &str = "[bond.glue.damping.viscous]\nnormal_force = 0.1\ntangential_force = 0.1\n";
+pub(crate) const DAMPED: &str = "[bond.glue.damping.viscous]\nnormal_force = 0.1\ntangential_force = 0.1\n";
 
 #[test]
 fn bonds_go_with_their_particles_and_the_books_close() {

@@ -615,18 +615,19 @@ fn a_stress_of_zero_is_reached_where_it_is_small_beside_the_others() {
     assert!(!told.iter().any(|remark| remark.starts_with("[cell] servo: ")), "{told:?}");
 }
 
-/// Grains between sides that are held at 100 kPa, in a cell that is driven along z.
-fn triaxial(more: &str) -> Simulation {
+/// Grains in a cell that moves so.
+fn sand(more: &str, motion: &str) -> String {
     let text = scene(ROUGH[0], "restitution = 0.5\nfriction = 0.5", &cell(cube(0.0116), ""));
     let text = text.replace("step = 1e-5\n", more).replace("youngs_modulus = 1e7", "youngs_modulus = 3e8");
+    let sand =
+        "[particles.sand]\nmaterial = \"glass\"\npacking = { solid_fraction = 0.58, radius = [0.8e-3, 1.2e-3] }\n";
+    format!("{text}{motion}\n{sand}")
+}
+
+/// Grains between sides that are held at 100 kPa, in a cell that is driven along z.
+fn triaxial(more: &str) -> Simulation {
     let side = "{ stress = -1e5, max_rate = 20.0 }";
-    start(
-        &(text
-            + &format!(
-                "motion = {{ driven = [\"zz\"], servo = {{ xx = {side}, yy = {side} }} }}\n\
-                 [particles.sand]\nmaterial = \"glass\"\npacking = {{ solid_fraction = 0.58, radius = [0.8e-3, 1.2e-3] }}\n"
-            )),
-    )
+    start(&sand(more, &format!("motion = {{ driven = [\"zz\"], servo = {{ xx = {side}, yy = {side} }} }}")))
 }
 
 #[test]
@@ -648,6 +649,35 @@ fn a_servo_holds_its_stress_while_the_cell_is_driven() {
     let found = interface.value(&simulation, interface.find("cell.servo_error.yy").unwrap());
     let expected = -1e5 - simulation.cell_stress()[1];
     assert_eq!(found, cograin::interface::Value::Real(expected));
+}
+
+#[test]
+fn servos_hold_the_mean_stress_while_the_cell_is_pressed_at_a_constant_rate() {
+    let rate = 1e-3 / 2e-3 * (1e5_f64 / 2500.0).sqrt();
+    let side = "{ mean_stress = -1e5, max_rate = 20.0 }";
+    let motion = format!("motion = {{ prescribed = {{ zz = {:?} }}, servo = {{ xx = {side}, yy = {side} }} }}", -rate);
+    let mut simulation = start(&sand("", &motion));
+    let (interval, mut sum) = (0.002 / rate, [0.0; 3]);
+    for step in 1..=40 {
+        simulation.advance(interval).unwrap();
+        let cell = simulation.state().cell.as_ref().unwrap();
+        assert_near(&[cell.strain[2]], &[-0.002 * f64::from(step)], 1e-12, "strain");
+        if step > 20 {
+            (0..3).for_each(|k| sum[k] += cell.mean_stress[k] / 20.0);
+        }
+    }
+    let [x, y, z] = sum;
+    assert!(((x + y + z) / 3.0 + 1e5).abs() < 2e-3 * 1e5, "{sum:?}");
+    // Both sides have the same, and the axis bears more.
+    assert!((x - y).abs() < 4e-3 * 1e5 && z < 1.2 * x, "{sum:?}");
+    let interface = cograin::interface::Interface::of(simulation.scene());
+    let found = interface.value(&simulation, interface.find("cell.servo_error.yy").unwrap());
+    let expected = -1e5 - simulation.cell_stress()[..3].iter().sum::<f64>() / 3.0;
+    assert_eq!(found, cograin::interface::Value::Real(expected));
+    assert!(
+        interface.find("cell.strain.zz").is_some() && interface.inputs().count() == 2,
+        "a prescribed strain is an output"
+    );
 }
 
 #[test]

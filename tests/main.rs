@@ -35,6 +35,7 @@ mod heat;
 mod lanes;
 mod loaded;
 mod losses;
+mod machines;
 mod motions;
 mod neighbours;
 mod nodes;

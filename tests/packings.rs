@@ -3,7 +3,12 @@
 //! Dense packings of equal spheres failed in boxes of ten diameters (0.5 for two seeds of four, 0.55 for every one),
 //! and long or huge regions ended in a panic or without memory.
 
-use cograin::scene::{PackingProgress, Scene, SceneErrors, Source};
+use cograin::results::{Checkpoint, write_checkpoint};
+use cograin::scene::{Models, PackingProgress, Packings, Scene, SceneErrors, Source};
+use cograin::simulation::Simulation;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// A scene with one packing of spheres of radius 1/2.
@@ -144,4 +149,65 @@ fn a_packing_tells_how_far_it_is() {
     std::fs::remove_dir_all(&folder).unwrap();
     assert_eq!(placed, 5);
     assert!(rounds > 10, "{rounds}");
+}
+
+/// A scene with a random packing and a seed, and how often it told of packings while it was read.
+fn read(path: &Path, made: &Packings) -> (Scene, usize) {
+    let mut told = 0;
+    let (scene, _) = Models::standard().read_with(path, &[], made, &mut |_| told += 1).unwrap();
+    (scene, told)
+}
+
+/// Writes a scene whose packing has this seed into a folder of a test, and its state at the start beside it.
+fn written(folder: &Path, seed: u64) -> (PathBuf, PathBuf) {
+    let (path, state) = (folder.join(format!("{seed}.toml")), folder.join(format!("{seed}.state")));
+    let text = format!(
+        "[run]\nseed = {seed}\n[material.a]\ndensity = 1.0\n[particles.p]\nmaterial = \"a\"\n\
+         packing = {{ box = [[0, 0, 0], [5, 5, 5]], count = 20, radius = [0.3, 0.5] }}\n"
+    );
+    fs::write(&path, text).unwrap();
+    let scene = Arc::new(read(&path, &Packings::default()).0);
+    let simulation = Simulation::new(Arc::clone(&scene)).unwrap();
+    write_checkpoint(&state, simulation.state(), &scene, "packing.toml").unwrap();
+    (path, state)
+}
+
+/// A folder for a test.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("cograin_packings_{name}_{}", std::process::id()));
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn a_packing_that_a_checkpoint_has_is_not_made_again() {
+    let folder = folder("made");
+    let ((one, state), (other, _)) = (written(&folder, 1), written(&folder, 2));
+    let made = Checkpoint::packings(&state);
+    let places = |scene: &Scene| Vec::from_iter(scene.particles.iter().map(|it| (it.position, it.radius)));
+    let ((anew, told), (taken, told_again)) = (read(&one, &Packings::default()), read(&one, &made));
+    assert!(told > 0 && told_again == 0, "{told}, {told_again}");
+    assert_eq!(places(&anew), places(&taken));
+    assert_eq!(anew.fingerprint, taken.fingerprint);
+    // Another seed makes another one.
+    assert!(read(&other, &made).1 > 0);
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn a_packing_that_was_damaged_or_moved_is_made_again() {
+    let folder = folder("damaged");
+    let (path, state) = written(&folder, 1);
+    let mut bytes = fs::read(&state).unwrap();
+    let line = bytes.iter().enumerate().filter(|(_, byte)| **byte == b'\n').nth(1).unwrap().0;
+    bytes[line + 9] ^= 1;
+    fs::write(&state, bytes).unwrap();
+    assert!(read(&path, &Checkpoint::packings(&state)).1 > 0);
+    let mut draft = read(&path, &Packings::default()).0.into_draft();
+    draft.particles[0].position[2] += 1e-3;
+    let scene = Arc::new(draft.build().unwrap());
+    let simulation = Simulation::new(Arc::clone(&scene)).unwrap();
+    write_checkpoint(&state, simulation.state(), &scene, "packing.toml").unwrap();
+    assert!(read(&path, &Checkpoint::packings(&state)).1 > 0);
+    fs::remove_dir_all(folder).unwrap();
 }

@@ -658,6 +658,8 @@ fn the_variables_of_a_region_stand_between_those_of_the_boundaries_and_of_the_sc
         "velocity.x",
         "velocity.y",
         "velocity.z",
+        "count",
+        "count_by_set.grains",
     ];
     let first = with.iter().position(|name| name.starts_with("all.")).expect("the region has variables");
     assert_eq!(with[first..first + own.len()], own.map(|name| format!("all.{name}")));

@@ -15,7 +15,7 @@ use cograin::interface::Standard;
 use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, OutputError, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, RunOrder, SettleOrder, SettleProgress, SettleStart, Start};
-use cograin::scene::{Models, PackingProgress, Scene, Setting, Source};
+use cograin::scene::{Models, PackingProgress, Packings, Scene, Setting, Source};
 use cograin::statics::Factorise;
 use cograin_verify as verify;
 use progress::Progress;
@@ -320,9 +320,16 @@ fn printable(text: &str) -> String {
 }
 
 /// Reads a scene, and shows how far its random packings are.
-fn read(models: &Models, arguments: &SceneArguments, quiet: bool) -> Result<(Scene, Source), Ending> {
+fn read(
+    models: &Models,
+    arguments: &SceneArguments,
+    from: Option<&Path>,
+    quiet: bool,
+) -> Result<(Scene, Source), Ending> {
+    // Packings of a state that is taken over need not be made again.
+    let made = from.map_or_else(Packings::default, Checkpoint::packings);
     let mut shown = Progress::new(quiet, "{spinner} {msg}  {elapsed}");
-    let result = models.read(&arguments.scene, &arguments.settings, &mut |progress| {
+    let result = models.read_with(&arguments.scene, &arguments.settings, &made, &mut |progress| {
         shown.tell(None, || match progress {
             PackingProgress::Placing { set, placed, count } => format!("[{set}] {placed} of {count} spheres placed"),
             PackingProgress::Pushing { set, rounds, overlap } => {
@@ -348,8 +355,13 @@ fn earlier_file(overwrite: bool) -> EarlierFile {
 }
 
 /// Reads a scene to be computed here. Its files are needed no more when the work begins.
-fn read_to_run(models: &Models, arguments: &ComputeArguments, quiet: bool) -> Result<(Arc<Scene>, Source), Ending> {
-    let (scene, source) = read(models, &arguments.scene, quiet)?;
+fn read_to_run(
+    models: &Models,
+    arguments: &ComputeArguments,
+    from: Option<&Path>,
+    quiet: bool,
+) -> Result<(Arc<Scene>, Source), Ending> {
+    let (scene, source) = read(models, &arguments.scene, from, quiet)?;
     let scene = match arguments.threads {
         Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
         None => scene,
@@ -359,7 +371,7 @@ fn read_to_run(models: &Models, arguments: &ComputeArguments, quiet: bool) -> Re
 
 /// `cograin check`
 fn check(models: &Models, arguments: &CheckArguments, quiet: bool) -> Result<(), Ending> {
-    let (scene, source) = read_to_run(models, &arguments.scene, quiet)?;
+    let (scene, source) = read_to_run(models, &arguments.scene, arguments.from.as_deref(), quiet)?;
     if arguments.stiffness {
         return say(
             report::stiffness(&scene, &source.name, arguments.from.as_deref(), FACTORISE).map_err(Ending::refused)?
@@ -371,7 +383,7 @@ fn check(models: &Models, arguments: &CheckArguments, quiet: bool) -> Result<(),
 
 /// `cograin variables`
 fn variables(models: &Models, arguments: &VariablesArguments, quiet: bool) -> Result<(), Ending> {
-    let (scene, source) = read(models, &arguments.scene, quiet)?;
+    let (scene, source) = read(models, &arguments.scene, None, quiet)?;
     let list = report::variables(&scene, &source.name).map_err(Ending::refused)?;
     if arguments.json { say_as_it_is(list.to_json().as_bytes()) } else { say(list) }
 }
@@ -384,7 +396,9 @@ fn positive(text: &str) -> Result<f64, String> {
 
 /// `cograin run`
 fn run(models: &Models, arguments: &RunArguments, quiet: bool) -> Result<(), Ending> {
-    let (scene, mut source) = read_to_run(models, &arguments.scene, quiet)?;
+    let resumed = arguments.resume.as_ref().and_then(Option::as_ref);
+    let from = arguments.from.as_ref().or(resumed).map(PathBuf::as_path);
+    let (scene, mut source) = read_to_run(models, &arguments.scene, from, quiet)?;
     let read = files_read(&arguments.scene.scene.scene, &source, &[]);
     refuse_to_replace(&arguments.output, &read).map_err(Ending::refused)?;
     source.files.clear();
@@ -422,7 +436,7 @@ fn run(models: &Models, arguments: &RunArguments, quiet: bool) -> Result<(), End
 
 /// `cograin settle`
 fn settle(models: &Models, arguments: &SettleArguments, quiet: bool) -> Result<(), Ending> {
-    let (scene, mut source) = read_to_run(models, &arguments.scene, quiet)?;
+    let (scene, mut source) = read_to_run(models, &arguments.scene, arguments.from.as_deref(), quiet)?;
     let read = files_read(&arguments.scene.scene.scene, &source, &[&arguments.from]);
     claim_file(&arguments.output, earlier_file(arguments.overwrite), &read).map_err(Ending::refused)?;
     source.files.clear();
@@ -453,7 +467,7 @@ fn settle(models: &Models, arguments: &SettleArguments, quiet: bool) -> Result<(
 
 /// `cograin export`
 fn package(models: &Models, library: &str, arguments: &ExportArguments, quiet: bool) -> Result<(), Ending> {
-    let (scene, source) = read(models, &arguments.scene, quiet)?;
+    let (scene, source) = read(models, &arguments.scene, arguments.from.as_deref(), quiet)?;
     let scene = Arc::new(scene);
     let mut read = files_read(&arguments.scene.scene, &source, &[&arguments.from]);
     let claim = |read: &[PathBuf]| claim_file(&arguments.output, earlier_file(arguments.overwrite), read);

@@ -75,6 +75,19 @@ recipes! {
         "scene.toml" "../recipes/tablets/scene.toml";
     "mill" "a ball mill: impacts by energy, wear of drum and lifters":
         "scene.toml" "../recipes/mill/scene.toml";
+    "screw" "a screw in its trough takes grains along: meshes, parts of one machine":
+        "scene.toml" "../recipes/screw/scene.toml",
+        "flight.obj" "../recipes/screw/flight.obj",
+        "trough.obj" "../recipes/screw/trough.obj";
+    "shear_cell" "a powder that sticks (jkr), sheared under two normal stresses":
+        "scene.toml" "../recipes/shear_cell/scene.toml",
+        "shear.csv" "../recipes/shear_cell/shear.csv";
+    "calibration" "friction of grains from a heap and an oedometer curve, with their uncertainty":
+        "oedometer.toml" "../../models/calibration/oedometer.toml",
+        "press.csv" "../../models/calibration/press.csv",
+        "heap.toml" "../../models/calibration/heap.toml",
+        "measured.csv" "../../models/calibration/measured.csv",
+        "calibrate.py" "../../models/calibration/calibrate.py";
 }
 
 /// `cograin new`
@@ -115,7 +128,8 @@ pub(super) fn new(arguments: &NewArguments) -> Result<(), Ending> {
     say(format_args!("{}: {}", folder.display(), recipe.about))?;
     say(format_args!("next: cograin check {}", scene.display()))?;
     say(format_args!("      cograin run {} -o {}{inputs}", scene.display(), out.display()))?;
-    has("couple.py").map_or(Ok(()), |_| say(format_args!("      cd {} && python couple.py", folder.display())))
+    let script = recipe.files.iter().find(|(name, _)| name.ends_with(".py"));
+    script.map_or(Ok(()), |(name, _)| say(format_args!("      cd {} && python {name}", folder.display())))
 }
 
 /// Writes a file that is not there.

@@ -74,14 +74,21 @@ fn try_all(target: &Target) {
     });
 }
 
-/// One test a target.
+/// One test a target, and one that none is left out.
 macro_rules! tests {
-    ($($name:ident)*) => { $(
+    ($($name:ident)*) => {
+        $(
+            #[test]
+            fn $name() {
+                try_all(TARGETS.iter().find(|target| target.name == stringify!($name)).unwrap());
+            }
+        )*
+
         #[test]
-        fn $name() {
-            try_all(TARGETS.iter().find(|target| target.name == stringify!($name)).unwrap());
+        fn every_target_is_tried() {
+            assert!(TARGETS.iter().map(|target| target.name).eq([$(stringify!($name)),*]));
         }
-    )* };
+    };
 }
 
-tests! { scene particles mesh state calls }
+tests! { scene particles frames mesh state calls }

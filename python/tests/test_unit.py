@@ -160,12 +160,13 @@ def test_a_file_that_is_written_anew_is_another_unit(packaged, tmp_path):
 
 
 def test_what_was_unpacked_goes_when_many_others_are_open_and_when_the_process_ends(packaged, tmp_path):
-    first = Unit(packaged(DROP))
+    paths = [tmp_path / f"{count}.fmu" for count in range(KEPT + 1)]
+    for path in paths:
+        shutil.copy(packaged(DROP), path)
+    first = Unit(paths[0])
     folder = first.folder
     first.close()
-    for count in range(KEPT):
-        path = tmp_path / f"{count}.fmu"
-        shutil.copy(packaged(DROP), path)
+    for path in paths[1:]:
         Unit(path).close()
     assert folder.exists(), "while somebody has the unit"
     del first

@@ -21,6 +21,7 @@ fn draft() -> SceneDraft {
         name: name.to_owned(),
         shape: shape.clone(),
         axes,
+        moves_with: None,
         nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         reference: [0.0; 3],

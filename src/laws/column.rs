@@ -46,5 +46,5 @@ pub static TEMPERATURE: Column = Column {
     expected: "a number above 0",
     start: None,
     shared: Some(|material, mass| mass * material.thermal.specific_heat.unwrap_or(1.0)),
-    asked_by: &["contact.*.heat", "bond.*.conductivity", "heat_source", "heat.from_losses"],
+    asked_by: &["contact.*.heat", "bond.*.conductivity", "heat_source", "heat.from_losses", "fluid.*.heat"],
 };

@@ -1,6 +1,7 @@
 //! `[boundary.<name>]`
 
 use super::{AxisMotion, Body, BoundaryTemperature, InputCourse, NodeMotion, Outside, Shape};
+use crate::base::quantity::BoundaryIndex;
 use crate::laws::wear::WearModel;
 
 /// `[boundary.<name>]`: where the outside world acts on the particles.
@@ -12,6 +13,8 @@ pub struct Boundary {
     pub shape: Shape,
     /// How it moves along x, y, z, and turns about them.
     pub axes: [AxisMotion; 6],
+    /// The boundary with which it moves, as a part of one machine: its axes, its input and its point of reference are those of that one.
+    pub moves_with: Option<BoundaryIndex>,
     /// What the nodes of a mesh do.
     pub nodes: NodeMotion,
     /// How a driven axis or node goes from where it stands to its new value.

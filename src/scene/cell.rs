@@ -42,6 +42,8 @@ pub enum CellMotion {
     Fixed,
     /// It follows an input.
     Driven,
+    /// It changes at this rate \[1/s\].
+    Prescribed(f64),
     /// It reaches a stress.
     Servo(StressServo),
 }
@@ -51,11 +53,48 @@ pub enum CellMotion {
 pub struct StressServo {
     /// What the target starts with \[Pa\].
     pub stress: f64,
+    /// Which stress that is.
+    pub of: ServedStress,
     /// The largest rate of the strain \[1/s\].
     pub max_rate: f64,
 }
 
+/// Which stress a servo of the cell reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ServedStress {
+    /// That of its own component.
+    #[default]
+    Own,
+    /// The mean of the three normal ones: the components with such a servo have what the others leave of it, in equal parts.
+    Mean,
+}
+
 impl CellMotion {
+    /// Whether a servo of it reaches the mean of the normal stresses.
+    pub(crate) fn serves_mean(&self) -> bool {
+        self.servo().is_some_and(|servo| servo.of == ServedStress::Mean)
+    }
+
+    /// What the target of its servo is compared with, where these are the stresses of the cell \[Pa\].
+    pub(crate) fn served(&self, component: usize, stresses: &[f64; 6]) -> f64 {
+        if self.serves_mean() { stresses[..3].iter().sum::<f64>() / 3.0 } else { stresses[component] }
+    }
+
+    /// The stress that a component among these has where its servo reaches a target while the others have these stresses \[Pa\].
+    pub(crate) fn wanted(all: &[Self; 6], component: usize, target: f64, stresses: &[f64; 6]) -> f64 {
+        if !all[component].serves_mean() {
+            return target;
+        }
+        let (mut left, mut sharing) = (3.0 * target, 0.0);
+        for (motion, stress) in all.iter().zip(stresses).take(3) {
+            match motion.serves_mean() {
+                true => sharing += 1.0,
+                false => left -= stress,
+            }
+        }
+        left / sharing
+    }
+
     /// The servo, if it is one.
     pub(crate) fn servo(&self) -> Option<&StressServo> {
         if let Self::Servo(servo) = self { Some(servo) } else { None }
@@ -126,8 +165,9 @@ enum Shear {
 #[serde(deny_unknown_fields)]
 struct ServoKeys {
     /// What the target starts with \[Pa\].
-    #[serde(default)]
-    stress: Finite,
+    stress: Option<Finite>,
+    /// The same of the mean of the normal stresses \[Pa\].
+    mean_stress: Option<Finite>,
     /// The largest rate of the strain \[1/s\].
     max_rate: Positive,
 }
@@ -142,6 +182,9 @@ keys! {
         /// Components that follow the inputs `cell.strain.<component>`.
         #[serde(default)]
         driven: Vec<Component> = "none",
+        /// `{ zz = -0.1 }`: components that change at this rate \[1/s\].
+        #[serde(default)]
+        prescribed: BTreeMap<Component, Finite> = "none",
         /// `{ zz = { stress = -1e5, max_rate = 0.1 } }`: the strain moves, at most at this rate \[1/s\], until the stress \[Pa\],
         /// tension positive, is that of the input `cell.target_stress.zz`, which starts with `stress` (0); `cell.servo_error.zz` is
         /// the error.
@@ -169,6 +212,38 @@ keys! {
     }
 }
 
+impl ServoKeys {
+    /// The servo.
+    fn servo(&self) -> StressServo {
+        let of = if self.mean_stress.is_some() { ServedStress::Mean } else { ServedStress::Own };
+        let stress = self.mean_stress.or(self.stress).map_or(0.0, Finite::get);
+        StressServo { stress, of, max_rate: self.max_rate.get() }
+    }
+}
+
+impl MotionKeys {
+    /// What its servos cannot be together.
+    fn objection(&self) -> Option<Mistake> {
+        let mean = |keys: &ServoKeys| keys.mean_stress.map(Finite::get);
+        let (found, expected) = if let Some((component, _)) =
+            self.servo.iter().find(|(_, keys)| keys.stress.is_some() && keys.mean_stress.is_some())
+        {
+            let name = STRAINS[*component as usize];
+            (format!("both for {name}"), "one of stress and mean_stress")
+        } else if let Some((component, _)) =
+            self.servo.iter().find(|(component, keys)| **component as usize > 2 && keys.mean_stress.is_some())
+        {
+            let name = STRAINS[*component as usize];
+            (format!("mean_stress for {name}"), "mean_stress for xx, yy and zz only: it is their mean")
+        } else {
+            let targets: Vec<f64> = self.servo.values().filter_map(mean).collect();
+            let other = targets.iter().find(|target| **target != targets[0])?;
+            (format!("mean_stress {:?} and {other:?}", targets[0]), "one value: there is one mean")
+        };
+        Some(Mistake::Unexpected { found, expected: expected.to_owned() })
+    }
+}
+
 impl CellKeys {
     /// The cell, beside files that say this box; reports what is wrong in the table itself.
     pub(in crate::scene) fn cell(
@@ -186,19 +261,20 @@ impl CellKeys {
                 twice("periodic", AXES[*edge as usize]);
             }
         }
-        let MotionKeys { fixed, driven, servo, shear } = &self.motion;
+        let MotionKeys { fixed, driven, prescribed, servo, shear } = &self.motion;
         let shear = shear.map(|shear| shear as usize);
         let named = (fixed.iter().map(|component| (*component as usize, CellMotion::Fixed)))
             .chain(driven.iter().map(|component| *component as usize).chain(shear).map(|it| (it, CellMotion::Driven)))
-            .chain(servo.iter().map(|(component, keys)| {
-                let servo = StressServo { stress: keys.stress.get(), max_rate: keys.max_rate.get() };
-                (*component as usize, CellMotion::Servo(servo))
-            }));
+            .chain(prescribed.iter().map(|(component, rate)| (*component as usize, CellMotion::Prescribed(rate.get()))))
+            .chain(servo.iter().map(|(component, keys)| (*component as usize, CellMotion::Servo(keys.servo()))));
         let mut motion = [None; 6];
         for (component, moves) in named {
             if motion[component].replace(moves).is_some() {
                 twice("motion", STRAINS[component]);
             }
+        }
+        if let Some(mistake) = self.motion.objection() {
+            report("motion.servo", mistake);
         }
         let lattice = match (&self.edges, box_of_file) {
             (Some(edges), _) => match edges[..] {

@@ -1,9 +1,10 @@
 //! Temperatures: of particles and boundaries at the start, and what warms particles from outside.
 
-use super::{AxisMotion, Boundary, Cell, ContactLaw, NodeMotion, SceneDraft};
+use super::{AxisMotion, Boundary, Cell, ContactLaw, SceneDraft};
 use crate::base::document::Mistake;
 use crate::laws::column::TEMPERATURE;
-use crate::laws::contact::{LossKind, MaterialPair, Missing, Warming};
+use crate::laws::contact::property::PULL_OFF_FORCE;
+use crate::laws::contact::{Law, LossKind, MaterialPair, Missing, Warming};
 use std::collections::BTreeSet;
 
 /// The temperature of a boundary.
@@ -44,12 +45,23 @@ pub struct HeatSettings {
     pub frozen: bool,
     /// Which losses of contacts warm the bodies, half each.
     pub from_losses: Warming,
+    /// Which losses of bonds do.
+    pub from_bonds: BondWarming,
+}
+
+/// Which losses of bonds warm the bodies, half each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BondWarming {
+    /// What damping and relaxation take.
+    pub damping: bool,
+    /// What bonds hold that break.
+    pub release: bool,
 }
 
 impl HeatSettings {
     /// Whether losses warm the bodies.
     pub(crate) fn warms(&self) -> bool {
-        self.from_losses != Warming::default()
+        self.from_losses != Warming::default() || self.from_bonds != BondWarming::default()
     }
 }
 
@@ -168,7 +180,7 @@ fn without_heat(scene: &SceneDraft) -> Vec<Objection> {
 
 /// What heat is not modelled with.
 fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
-    let mut found = Vec::new();
+    let mut found: Vec<_> = attraction(scene).into_iter().collect();
     let mut refuse = |table: String, key, what: &str| {
         let message = format!("expected none where heat flows, found one: {what}");
         found.push((table, key, Mistake::Refused { message }));
@@ -182,21 +194,10 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
     if scene.heat.frozen && scene.heat.warms() {
         refuse("heat".to_owned(), "from_losses", "nothing moves in a scene with [heat] frozen = true");
     }
-    let holds = |law: &&ContactLaw| law.choice.rolling.row().history().is_some();
-    if let Some(law) = scene.contacts.iter().find(holds).filter(|_| scene.heat.from_losses[LossKind::Rolling as usize])
-    {
-        let (name, model) = (&law.name, law.choice.rolling.name());
-        let message = format!(
-            "expected losses that are heat at once, found \"rolling\": the rolling model {model} of [contact.{name}] is a spring, which \
-             holds part of it"
-        );
-        found.push(("heat".to_owned(), "from_losses", Mistake::Refused { message }));
-        return found;
-    }
     if scene.heat.frozen {
         let moves = |boundary: &&Boundary| {
             let stays = |axis: &AxisMotion| (axis.is_fixed() && axis.conveys() == 0.0) || axis.takes_place();
-            !boundary.axes.iter().all(stays) || boundary.nodes != NodeMotion::Rigid
+            !boundary.axes.iter().all(stays)
         };
         if let Some(boundary) = scene.boundaries.iter().find(moves) {
             refuse(
@@ -210,6 +211,22 @@ fn unsupported(scene: &SceneDraft) -> Vec<Objection> {
         }
     }
     found
+}
+
+/// Attraction among the losses of plastic contacts: it comes back, and no contact knows which part it has taken.
+fn attraction(scene: &SceneDraft) -> Option<Objection> {
+    let law = scene.contacts.iter().find(|law| {
+        let pulls = |entry: usize| scene.pairs[entry].get(&PULL_OFF_FORCE).is_some_and(|force| force > 0.0);
+        let mut governed = (0..scene.pairs.len()).filter(|&entry| law.between[entry]);
+        Law::of(&law.choice).is_plastic() && (law.choice.cohesion.row().is_active() || governed.any(pulls))
+    });
+    let law = law.filter(|_| scene.heat.from_losses[LossKind::Other as usize])?;
+    let message = format!(
+        "expected losses that do not come back, found \"plastic\": in the book of losses it has the attraction of [contact.{}], its \
+         cohesion model or pull_off_force, too",
+        law.name
+    );
+    Some(("heat".to_owned(), "from_losses", Mistake::Refused { message }))
 }
 
 /// Heat sources of particles that a boundary carries.

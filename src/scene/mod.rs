@@ -35,12 +35,12 @@ pub use crate::base::quantity::Range;
 pub use crate::laws::motion::{AxisMotion, InputCourse, NodeMotion};
 pub use crate::laws::surface::Shape;
 pub use crate::scene::exchange::{InsertedClump, Kind, Outside};
-pub use crate::scene::packing::PackingProgress;
+pub use crate::scene::packing::{PackingProgress, Packings};
 pub use about::About;
 pub use accuracy::Accuracy;
 pub use body::Body;
 pub use boundary::Boundary;
-pub use cell::{Cell, CellMotion, StressServo};
+pub use cell::{Cell, CellMotion, ServedStress, StressServo};
 pub use checked::Scene;
 pub use clump::{Clump, ClumpShape, OrientationKey};
 pub use column::ColumnStart;
@@ -50,7 +50,7 @@ pub use exchange::parts::{FlowMeter, Insertion, Outlet, OutletPlace};
 pub use fluid::{Fluid, FluidHeat, FluidVelocity, Pressure};
 pub use governing::GoverningLaws;
 pub use grid::{Grid, GridOutput};
-pub use heat::{BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
+pub use heat::{BondWarming, BoundaryTemperature, HeatGiven, HeatSettings, HeatSource};
 pub use models::Models;
 pub(crate) use models::{DRY, ROLLING_FREELY, SMOOTH};
 pub use output::{EnergyBins, Impacts, Output};
@@ -159,6 +159,8 @@ pub struct SceneDraft {
     pub fingerprint: u64,
     /// The text and every file that it names, each with a fingerprint of its own; empty for a scene built in code.
     pub parts: Vec<(String, u64)>,
+    /// Sets of spheres that a random packing made, and the digest of what decided it; none in a scene that is built in code, which may have moved them.
+    pub packed: Vec<(SetIndex, u64)>,
     /// Keys of the text that nothing reads, and why.
     pub unread: Vec<String>,
 }

@@ -28,7 +28,9 @@ def pull(apart):
 def wet():
     """Builds the crate from outside of the workspace, in the folder that the workspace builds in: what both use is built
     once, of the same versions. Gives its program."""
-    shutil.copy(ROOT / "Cargo.lock", CRATE)
+    lock = CRATE / f"Cargo.lock.{os.getpid()}"
+    shutil.copy(ROOT / "Cargo.lock", lock)
+    lock.replace(CRATE / "Cargo.lock")  # whole at any time: another process may build
     place = {**os.environ, "CARGO_TARGET_DIR": str(ROOT / "target")}
     for work in (["test", "--lib"], ["build"]):
         done = subprocess.run(["cargo", *work], cwd=CRATE, env=place, capture_output=True, text=True, check=False)

@@ -10,13 +10,13 @@ use cograin::state::Loss;
 const ALL: &str = "[heat]\nfrom_losses = [\"normal_damping\", \"tangential_damping\", \"sliding\"]\n";
 
 /// What these losses took since the start \[J\].
-fn lost(simulation: &Simulation, causes: &[Loss]) -> f64 {
+pub(super) fn lost(simulation: &Simulation, causes: &[Loss]) -> f64 {
     let losses = simulation.losses().expect("losses that warm are booked");
     causes.iter().map(|&cause| losses[cause as usize]).sum()
 }
 
 /// Heat that particles gained and gave to boundaries since the start \[J\].
-fn heat(simulation: &Simulation) -> f64 {
+pub(super) fn heat(simulation: &Simulation) -> f64 {
     let heat = simulation.state().heat.as_ref().expect("heat flows");
     heat.energy() + heat.boundaries.iter().map(|boundary| boundary.heat()).sum::<f64>()
 }
@@ -151,12 +151,4 @@ fn losses_that_are_no_heat_at_once_are_refused() {
     let right = impact(0.5);
     refused(&right.replace("\"sliding\"", "\"projection\""), "projection");
     refused(&right.replace("[heat]", "[heat]\nfrozen = true"), "nothing moves in a scene with [heat] frozen = true");
-    let rolling = right
-        .replace("\"sliding\"", "\"rolling\"")
-        .replace(
-            "[contact.touch.tangential.history]",
-            "[contact.touch.tangential.history]\n[contact.touch.rolling.epsd]",
-        )
-        .replace("friction = 0.5", "friction = 0.5\nrolling_friction = 0.1\nrolling_viscous_damping = 0.0");
-    refused(&rolling, "is a spring, which holds part of it");
 }

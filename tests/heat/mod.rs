@@ -2,7 +2,9 @@
 
 mod balance;
 mod bodies;
+mod bonds;
 mod boundaries;
+mod held;
 mod inputs;
 mod losses;
 mod network;

@@ -131,3 +131,64 @@ fn bonds_conduct_beside_the_contact_that_they_suppress() {
     let both = conductance(1e-5) + 7.0 * PI * 0.25e-6 / 1.99e-3;
     assert_close(-simulation.state().heat.as_ref().unwrap().flow[0], 100.0 * both, 1e-12);
 }
+
+/// Two spheres that fly apart at 2 m/s, and one from a floor, which overlap by 10 µm and are bonded until they are 5 nm further apart; this
+/// is what their contacts do meanwhile.
+fn flying_apart(contact: &str) -> String {
+    let bond = |name: &str, others: &str, longest: f64| {
+        format!(
+            "[bond.{name}]\nbetween = [\"all\", \"{others}\"]\ncreate_distance = 2.1e-3\nnormal_stiffness = 1.0e10\n\
+             tangential_stiffness = 4.0e9\nconductivity = 7.0\nradius_multiplier = 0.5\ncontact = \"{contact}\"\n\
+             [bond.{name}.breakage]\nmax_distance = {longest:?}\n"
+        )
+    };
+    GRAINS.replace("step = 1.0e-4", "step = 1.0e-9")
+        + "[particles.all]\nmaterial = \"stone\"\nlist = [\n\
+           { position = [0.0, 0.0, 3.0e-3], radius = 1.0e-3, temperature = 400.0, velocity = [-1.0, 0.0, 0.0] },\n\
+           { position = [1.99e-3, 0.0, 3.0e-3], radius = 1.0e-3, temperature = 300.0, velocity = [1.0, 0.0, 0.0] },\n\
+           { position = [9.0e-3, 0.0, 0.99e-3], radius = 1.0e-3, temperature = 400.0, velocity = [0.0, 0.0, 2.0] },\n]\n\
+           [boundary.floor]\nplane = { point = [0, 0, 0], normal = [0, 0, 1] }\nmaterial = \"stone\"\ntemperature = 300.0\n"
+        + &bond("glue", "all", 1.99e-3 + 5e-9)
+        + &bond("foot", "floor", 0.99e-3 + 5e-9)
+}
+
+#[test]
+fn a_contact_that_a_bond_suppresses_conducts_once_while_bodies_move_and_when_the_bond_has_broken() {
+    for contact in ["parallel", "without_normal", "none"] {
+        let mut simulation = start(&flying_apart(contact));
+        let mut lived = 0;
+        for step in 0..12 {
+            let before = [0, 1, 2].map(|index| temperature(&simulation, index));
+            simulation.advance(1e-9).unwrap();
+            let state = simulation.state();
+            let place = |index: usize| state.particles.position[state.particles.slot[index] as usize];
+            let (apart, high) = (place(1)[0] - place(0)[0], place(2)[2]);
+            let bonded = |law: usize, length: f64| {
+                if state.bonds[law].first.is_empty() { 0.0 } else { 7.0 * PI * 0.25e-6 / length }
+            };
+            let pair = conductance(2e-3 - apart) + bonded(0, apart);
+            let wall = 2.0 * 5.0 * (1e-3 * (1e-3 - high)).sqrt() + bonded(1, high);
+            let flow = &state.heat.as_ref().unwrap().flow;
+            assert_close(flow[1], pair * (before[0] - before[1]), 1e-11);
+            assert_close(-flow[2], wall * (before[2] - 300.0), 1e-11);
+            lived += u32::from(!state.bonds[0].first.is_empty());
+            assert!(step > 0 || lived == 1, "{contact}: they are bonded at first");
+        }
+        assert!((1..11).contains(&lived), "{contact}: the bond has lived {lived} steps");
+        assert!(simulation.state().bonds[1].first.is_empty(), "{contact}");
+    }
+}
+
+#[test]
+fn an_elastic_impact_of_a_hot_and_a_cold_sphere_gives_the_heat_of_the_closed_form() {
+    let list = row([(0.0, 400.0), (2.0001e-3, 300.0)]).replacen("400.0 }", "400.0, velocity = [1.0, 0.0, 0.0] }", 1);
+    let text = GRAINS.replace("step = 1.0e-4", "step = 1.0e-7").replace("restitution = 0.5", "restitution = 1.0");
+    let mut simulation = start(&format!("{text}[particles.all]\nmaterial = \"stone\"\nlist = [\n{list}]\n"));
+    simulation.advance(2e-4).unwrap();
+    assert_eq!(simulation.contact_count(), 0);
+    // Hertz: the deepest overlap, and ∫ a dt = 4/5 B(3/5, 1/2) √(R* δ) δ/v; the heat is 2 k ΔT times that.
+    let (mass, radius, modulus) = (0.5 * capacity() / 500.0, 0.5e-3_f64, 0.5 * 5.0e7 / (1.0 - 0.0625));
+    let deepest = libm::pow(15.0 * mass / (16.0 * radius.sqrt() * modulus), 0.4);
+    let expected = 2.0 * 5.0 * 100.0 * 2.21960 * (radius * deepest).sqrt() * deepest;
+    assert_close(simulation.state().heat.as_ref().unwrap().gained[1], expected, 1e-4);
+}

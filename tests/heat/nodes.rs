@@ -26,9 +26,13 @@ fn text(keys: &str) -> String {
 
 /// That scene at time 0.
 fn begin(keys: &str) -> Simulation {
+    Simulation::new(scene_with(&text(keys), sheet())).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The sheet as a file.
+fn sheet() -> BTreeMap<String, Vec<u8>> {
     let corners: String = CORNERS.iter().map(|[x, y, z]| format!("v {x:e} {y:e} {z:e}\n")).collect();
-    let files = BTreeMap::from([("sheet.obj".to_owned(), (corners + "f 1 2 3\nf 1 3 4\n").into_bytes())]);
-    Simulation::new(scene_with(&text(keys), files)).unwrap_or_else(|error| panic!("{error}"))
+    BTreeMap::from([("sheet.obj".to_owned(), (corners + "f 1 2 3\nf 1 3 4\n").into_bytes())])
 }
 
 /// Temperatures that go up along both axes of the sheet \[K\].
@@ -108,6 +112,47 @@ fn the_unit_has_a_temperature_and_heat_flows_of_each_node_in_place_of_one_temper
         interface.value(&simulation, flow).number()
     };
     assert_close(found, (run(352.0) - run(348.0)) / 4.0, 1e-7);
+}
+
+/// Nothing moves.
+const FROZEN: &str = "[heat]\nfrozen = true\n";
+
+#[test]
+fn while_nothing_moves_a_linear_field_of_nodes_acts_as_one_temperature_at_each_point_of_contact() {
+    let mut simulation = begin(&format!("temperature = {{ driven = 300.0 }}\n{FROZEN}"));
+    warm(&mut simulation);
+    // At the beginning of the first step the nodes are as warm as the spheres.
+    (0..2).for_each(|_| simulation.advance(1e-6).unwrap());
+    let heat = simulation.state().heat.as_ref().unwrap();
+    for (sphere, place) in [[0.2e-3, 0.0, 0.0], [2.7e-3, 0.0, 0.0], [6e-3, 0.0, 0.0]].into_iter().enumerate() {
+        let mut warmed = begin(&format!("temperature = {:?}\n{FROZEN}", field(place)));
+        warmed.advance(1e-6).unwrap();
+        assert_close(heat.flow[sphere], warmed.state().heat.as_ref().unwrap().flow[sphere], 1e-12);
+    }
+    assert_close(heat.nodes_of(0).unwrap().iter().map(|node| node.flow).sum(), heat.boundaries[0].flow, 1e-13);
+}
+
+#[test]
+fn while_nothing_moves_spheres_come_to_the_temperature_of_the_field_and_nodes_give_what_they_gain() {
+    let text = text(&format!("temperature = {{ driven = 300.0 }}\n{FROZEN}"));
+    let text = text.replace("step = 1.0e-6\nallow_unstable = true", "safety = 0.5");
+    let mut simulation = Simulation::new(scene_with(&text, sheet())).unwrap();
+    warm(&mut simulation);
+    for interval in [0.3, 1.0, 20.0, 100.0] {
+        simulation.advance(interval).unwrap();
+        let heat = simulation.state().heat.as_ref().unwrap();
+        let (nodes, whole) = (heat.nodes_of(0).unwrap(), heat.boundaries[0]);
+        assert_close(nodes.iter().map(|node| node.heat()).sum(), whole.heat(), 1e-12);
+        assert_close(nodes.iter().map(|node| node.mean_flow).sum(), whole.mean_flow, 1e-12);
+        assert_close(heat.energy(), -whole.heat(), 1e-12);
+    }
+    for (sphere, place) in [[0.2e-3, 0.0, 0.0], [2.7e-3, 0.0, 0.0], [6e-3, 0.0, 0.0]].into_iter().enumerate() {
+        // A step may be wrong by 1e-6 of the differences of temperature.
+        assert!((super::temperature(&simulation, sphere) - field(place)).abs() < 3e-5);
+    }
+    simulation.set_node(SHEET, (1, 2), 1e-6);
+    let refused = simulation.advance(1.0).unwrap_err().to_string();
+    assert!(refused.contains("expected no motion in a scene with [heat] frozen = true"), "{refused}");
 }
 
 #[test]

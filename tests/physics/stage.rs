@@ -83,6 +83,7 @@ pub(crate) fn plane(point: [f64; 3], normal: [f64; 3], material: u32) -> Boundar
         name: "plane".into(),
         shape: Shape::of(Plane { material: MaterialIndex(material), point, normal }),
         axes: [const { AxisMotion::Fixed }; 6],
+        moves_with: None,
         nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         reference: point,

@@ -209,7 +209,7 @@ fn a_checkpoint_of_an_older_program_is_refused_in_words() {
         (&b"cograin\0\x04\0\0\0"[..], "is a checkpoint in the format of another version"),
         (b"cograin checkpoint 7\n", "is a checkpoint in the format of another version"),
         (b"[run]\nend = 1", "expected a checkpoint"),
-        (b"cograin checkpoint 1\n0000000000000000 {}\n", "damaged"),
+        (b"cograin checkpoint 2\n0000000000000000 {}\n", "damaged"),
     ] {
         fs::write(&file, bytes).unwrap();
         for how in ["--from", "--resume"] {

@@ -4,7 +4,7 @@ use crate::ground::{Place, cograin, complaint};
 use std::fs;
 
 /// Ends that the recipes are run to here \[s\]: some time steps of each.
-const ENDS: [(&str, &str); 15] = [
+const ENDS: [(&str, &str); 18] = [
     ("drop", "1e-3"),
     ("oedometer", "2e-4"),
     ("triaxial", "4e-5"),
@@ -20,6 +20,9 @@ const ENDS: [(&str, &str); 15] = [
     ("clumps", "4e-4"),
     ("tablets", "4e-4"),
     ("mill", "4e-4"),
+    ("screw", "4e-4"),
+    ("shear_cell", "4e-5"),
+    ("calibration", "4e-4"),
 ];
 
 /// Names of the recipes, as the program lists them.
@@ -42,8 +45,11 @@ fn every_recipe_is_a_scene_that_runs() {
         let mut call = cograin(&[]);
         call.args(told.split_whitespace()).args(["--set", &format!("run.end={end}")]);
         let ran = call.output().unwrap();
-        let couples = said.contains(&format!("cd {} && python couple.py", folder.display()));
-        assert_eq!(couples, folder.join("couple.py").exists(), "{name}: {said}");
+        let script =
+            said.lines().find_map(|line| line.trim().strip_prefix(&format!("cd {} && python ", folder.display())));
+        let scripts = fs::read_dir(&folder).unwrap().map(|file| file.unwrap().file_name().into_string().unwrap());
+        let scripts: Vec<_> = scripts.filter(|file| file.ends_with(".py")).collect();
+        assert_eq!(script.into_iter().collect::<Vec<_>>(), scripts, "{name}: {said}");
         assert!(ran.status.success(), "{name}: {}", String::from_utf8_lossy(&ran.stderr));
     }
 }

@@ -17,11 +17,22 @@ const ABSENT: [(&[&str], &str, &str); 5] = [
         "a [heat_source.<name>] with an ambient temperature and conductance",
     ),
     (
-        &["gap_conduction", "fluid_conductivity", "surround_layer", "minimum_conduction_distance"],
+        &[
+            "gap",
+            "gap_conduction",
+            "gas_conductivity",
+            "fluid_conductivity",
+            "surround_layer",
+            "minimum_conduction_distance",
+        ],
         "conduction through the fluid in gaps",
         "the heat sub-models of a contact law, which act where bodies touch",
     ),
-    (&["thermal_expansion", "expansion_coefficient"], "thermal expansion", "radii that stay"),
+    (
+        &["thermal_expansion", "thermal_expansion_coefficient", "expansion_coefficient"],
+        "thermal expansion",
+        "radii that stay",
+    ),
 ];
 
 /// The refusal of something that this program does not have.

@@ -2,6 +2,7 @@
 
 use super::look::Look;
 use super::looks_at_regions;
+use crate::base::number::Vector;
 use crate::engine::simulation::Simulation;
 
 /// Particles whose centre is in a region or a cell.
@@ -28,21 +29,14 @@ pub fn counts_of_regions(simulation: &Simulation) -> Vec<Count> {
 fn counted(look: &Look, simulation: &Simulation) -> Vec<Count> {
     let (scene, state) = (simulation.scene(), simulation.state());
     let mut counts = vec![Count { all: 0, of_set: vec![0; scene.sets.len()] }; look.count()];
-    let particles = &state.particles;
-    let mut add = |index: u32, [x, y, z, _]: [f64; 4]| {
-        let set = scene.particles.get(index as usize).map(|own| own.set.0 as usize);
-        look.parts_at([x, y, z].into(), |part| {
+    for grain in state.grains() {
+        let set = scene.particles.get(grain.index as usize).map(|own| own.set.0 as usize);
+        look.parts_at(Vector::from(*grain.position), |part| {
             counts[part].all += 1;
             if let Some(set) = set {
                 counts[part].of_set[set] += 1;
             }
         });
-    };
-    for slot in particles.slots().filter(|&slot| state.clump(slot).is_none()) {
-        add(particles.id[slot], particles.position[slot]);
-    }
-    for clump in 0..state.clumps.len() {
-        add(state.clumps.spheres_of(clump)[0], state.clumps.position[clump]);
     }
     counts
 }

@@ -49,7 +49,7 @@ pub(crate) struct Broken {
     /// Code of the cause.
     pub(crate) cause: f64,
     /// Released energy \[J\].
-    energy: f64,
+    pub(super) energy: f64,
     /// Unit vector from j to i.
     axis: [f64; 3],
     /// From the centre of i to the middle of the cross-section \[m\].

@@ -8,6 +8,7 @@ mod after;
 mod batch;
 mod book;
 pub(crate) mod clusters;
+mod heat;
 mod pipeline_buffer;
 pub(crate) mod walls;
 
@@ -31,6 +32,7 @@ use crate::laws::bond::{Body, BondLoads, Coefficients, Law, OneBond, Pair, Quate
 use crate::scene::Scene;
 use after::After;
 use batch::{SlabOf, TakeSlabs, Work};
+use heat::BondHeat;
 use std::sync::{Mutex, PoisonError};
 
 /// The pass of one bond law between particles.
@@ -59,6 +61,8 @@ pub(crate) struct BondPass {
     near: Mutex<PairCache>,
     /// Working space for the results of each slab.
     results: Mutex<Vec<Done>>,
+    /// What of its losses warms the bodies.
+    heat: BondHeat,
 }
 
 impl BondPass {
@@ -78,6 +82,7 @@ impl BondPass {
             pairs: bond.pairs.clone(),
             near: Mutex::default(),
             results: Mutex::default(),
+            heat: BondHeat::of(scene, None),
         }
     }
 
@@ -166,6 +171,7 @@ impl Pass for BondPass {
         let list = &mut state.bonds[self.index];
         let particles = &mut state.particles;
         let slabs = list.slabs.len().saturating_sub(1);
+        self.heat.begin(list);
         let mut columns = list.rows.iter_mut();
         let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
         let work = Work {
@@ -197,6 +203,7 @@ impl Pass for BondPass {
         for done in &mut *results {
             done.release(context.step, |bond| self.carried(state, bond));
         }
+        self.heat.end(&mut state.bonds[self.index], state.heat.as_mut(), results.iter());
         book(state, self.index, results.iter())
     }
 
@@ -242,12 +249,13 @@ impl Pass for BondPass {
         let list = &state.bonds[self.index];
         let any = |bond: &usize| goes[list.first[*bond] as usize] || goes[list.second[*bond] as usize];
         let gone = (0..list.first.len()).filter(any).map(|bond| {
-            let [i, j] = [list.first[bond], list.second[bond]].map(|slot| slot as usize);
-            powers(list, bond, &pair_of(&state.particles, i, j), &self.carried(state, bond))
+            let slots @ [i, j] = [list.first[bond], list.second[bond]];
+            let pair = pair_of(&state.particles, i as usize, j as usize);
+            let stays = slots.into_iter().find(|slot| !goes[*slot as usize]).unwrap_or(i);
+            (stays, powers(list, bond, &pair, &self.carried(state, bond)))
         });
-        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
-        state.bonds[self.index].damped += damped;
-        given
+        let gone: Vec<_> = gone.collect();
+        end_gone(state, (self.index, &self.heat), &gone, 0.5 * step)
     }
 }
 
@@ -326,9 +334,13 @@ pub(crate) fn powers(list: &BondList, bond: usize, pair: &Pair, carried: &BondLo
     [carried.power, taken.sum()]
 }
 
-/// The sum of pairs of numbers.
-pub(crate) fn sum(pairs: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    pairs.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d])
+/// Books the time \[s\] in which bonds of a law act whose bodies go: what remains of each (slot) and its [`powers`]. Returns the elastic energy
+/// that they give \[J\].
+fn end_gone(state: &mut State, (law, heat): (usize, &BondHeat), gone: &[(u32, [f64; 2])], time: f64) -> f64 {
+    let [given, damped] = [0, 1].map(|part: usize| time * gone.iter().map(|(_, powers)| powers[part]).sum::<f64>());
+    state.bonds[law].damped += damped;
+    heat.let_go(state, gone, time);
+    given
 }
 
 /// Adds to a list what is kept of a new bond where its law loses energy.

@@ -3,7 +3,8 @@
 //! The other body of a bond is its foot point, which moves with the plane. A particle stands once in a list, so pieces
 //! of a list are worked on side by side; loads on the plane are summed piece by piece, in order.
 
-use super::{Done, begin_losses, body_of, book, link_of, powers, shared_damping, stretched, sum, whole_force};
+use super::heat::BondHeat;
+use super::{Done, begin_losses, body_of, book, end_gone, link_of, powers, shared_damping, stretched, whole_force};
 use crate::base::lanes::Shared;
 use crate::base::number::{Vector, add};
 use crate::base::quantity::{BoundaryIndex, SetIndex};
@@ -48,6 +49,8 @@ pub(crate) struct WallBondPass {
     mass: f64,
     /// Working space for the results of each piece of the list.
     pieces: Mutex<Vec<Piece>>,
+    /// What of its losses warms the bodies.
+    heat: BondHeat,
 }
 
 /// Results of a piece of a list.
@@ -88,6 +91,7 @@ impl WallBondPass {
             reference: (*reference).into(),
             mass: 1.0 / mobility,
             pieces: Mutex::default(),
+            heat: BondHeat::of(scene, Some(boundary.index())),
         })
     }
 
@@ -234,6 +238,7 @@ impl Pass for WallBondPass {
     fn apply(&self, state: &mut State, context: &Context) -> Result<(), RunError> {
         let list = &mut state.bonds[self.index];
         let count = list.first.len();
+        self.heat.begin(list);
         let mut columns = list.rows.iter_mut();
         let mut column = || columns.next().map_or(Shared::new(&mut []), |column| Shared::new(column));
         let work = Work {
@@ -267,6 +272,8 @@ impl Pass for WallBondPass {
         for piece in &mut *pieces {
             piece.done.release(context.step, |bond| self.carried(state, bond));
         }
+        let results = pieces.iter().map(|piece| &piece.done);
+        self.heat.end(&mut state.bonds[self.index], state.heat.as_mut(), results);
         book(state, self.index, pieces.iter().map(|piece| &piece.done))
     }
 
@@ -312,10 +319,9 @@ impl Pass for WallBondPass {
         let list = &state.bonds[self.index];
         let any = |bond: &usize| goes[list.first[*bond] as usize];
         let gone = (0..list.first.len()).filter(any);
-        let gone = gone.map(|bond| powers(list, bond, &self.pair(state, bond), &self.carried(state, bond)));
-        let [given, damped] = sum(gone).map(|power| 0.5 * step * power);
-        state.bonds[self.index].damped += damped;
-        given
+        let of = |bond| (list.first[bond], powers(list, bond, &self.pair(state, bond), &self.carried(state, bond)));
+        let gone: Vec<_> = gone.map(of).collect();
+        end_gone(state, (self.index, &self.heat), &gone, 0.5 * step)
     }
 }
 

@@ -110,13 +110,17 @@ impl Cell {
         cell.volume_before = self.images.lattice(cell).volume();
         (cell.action, cell.stress_sum) = (Strains::default(), Strains::default());
         for (component, motion) in self.motion.iter().enumerate() {
-            let is_driven = matches!(motion, CellMotion::Driven);
-            cell.start[component] = if is_driven { cell.strain[component] } else { cell.target[component] };
-            cell.target[component] += change[component];
+            let is_led = matches!(motion, CellMotion::Driven | CellMotion::Prescribed(_));
+            cell.start[component] = if is_led { cell.strain[component] } else { cell.target[component] };
+            match motion {
+                CellMotion::Prescribed(rate) => cell.target[component] = cell.start[component] + rate * interval,
+                _ => cell.target[component] += change[component],
+            }
             cell.end[component] = cell.target[component];
             cell.rate[component] = match motion {
                 CellMotion::Fixed => 0.0,
                 CellMotion::Driven => (cell.end[component] - cell.start[component]) / interval,
+                CellMotion::Prescribed(rate) => *rate,
                 CellMotion::Servo(servo) => servo.max_rate,
             };
         }
@@ -184,16 +188,18 @@ impl Cell {
     fn strains(&self, cell: &mut CellState, progress: &Progress) -> Strains {
         let volume = self.images.lattice(cell).volume();
         let share = if progress.is_last() { 1.0 } else { progress.share(InputCourse::Ramp) };
+        let stresses: Strains =
+            std::array::from_fn(|component| stress::of(&cell.virial, &cell.kinetic, component) / volume);
         std::array::from_fn(|component| {
             let along = |from: f64, to: f64| if share < 1.0 { from + (to - from) * share } else { to };
             let (from, to) = (cell.start[component], cell.end[component]);
             match &self.motion[component] {
                 CellMotion::Fixed => cell.strain[component],
-                CellMotion::Driven => along(from, to),
+                CellMotion::Driven | CellMotion::Prescribed(_) => along(from, to),
                 CellMotion::Servo(servo) => {
-                    let stress = stress::of(&cell.virial, &cell.kinetic, component) / volume;
+                    let wanted = CellMotion::wanted(&self.motion, component, along(from, to), &stresses);
                     let felt = Felt {
-                        error: along(from, to) - stress,
+                        error: wanted - stresses[component],
                         stiffness: cell.stiffness[component]
                             + stress::kinetic_stiffness(&cell.kinetic, component) / volume,
                         inertia: cell.inertia,

@@ -44,9 +44,9 @@ pub(super) fn rate(servo: &StressServo, felt: Felt, held: &mut f64, step: f64) -
 #[cfg(test)]
 mod tests {
     use super::{Felt, HEAVIER, SHARE, rate};
-    use crate::scene::StressServo;
+    use crate::scene::{ServedStress, StressServo};
 
-    const SERVO: StressServo = StressServo { stress: -1e5, max_rate: 0.5 };
+    const SERVO: StressServo = StressServo { stress: -1e5, of: ServedStress::Own, max_rate: 0.5 };
 
     #[test]
     fn the_rate_is_a_share_of_what_is_missing_over_the_impedance_and_no_more_than_the_limit() {

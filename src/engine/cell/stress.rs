@@ -54,9 +54,7 @@ impl Cell {
     pub(crate) fn stress(&self, state: &State) -> Strains {
         let Some(cell) = &state.cell else { return Strains::default() };
         let mut kinetic = Columns::default();
-        let particles = &state.particles;
-        let loose = particles.slots().filter(|&slot| state.clump(slot).is_none()).map(|slot| &particles.velocity[slot]);
-        for &[u, v, w, mass] in loose.chain(&state.clumps.velocity) {
+        for &[u, v, w, mass] in state.grains().map(|grain| grain.velocity) {
             add_dyad(&mut kinetic, &[mass * u, mass * v, mass * w, 0.0], &[u, v, w, 0.0]);
         }
         let kinetic = square(&kinetic);
@@ -111,10 +109,7 @@ impl Cell {
 
     /// Mean mass of the particles and clumps over the third root of the volume for each; 0 where there are none \[kg/m\].
     fn inertia(&self, state: &State) -> f64 {
-        let particles = &state.particles;
-        let loose = particles.slots().filter(|&slot| state.clump(slot).is_none()).map(|slot| &particles.velocity[slot]);
-        let (sum, count) =
-            loose.chain(&state.clumps.velocity).fold((0.0, 0_u32), |(sum, count), row| (sum + row[3], count + 1));
+        let (sum, count) = state.grains().fold((0.0, 0_u32), |(sum, count), it| (sum + it.velocity[3], count + 1));
         let each = f64::from(count.max(1));
         sum / each / libm::cbrt(self.volume(state) / each)
     }

@@ -9,11 +9,12 @@ use crate::engine::run_error::RunError;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{State, StateFault};
 use crate::laws::bond::creation::Moment;
+use crate::laws::surface::NodeWeights;
 use crate::scene::Scene;
 
 /// A particle touches a surface.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct SurfaceTouch {
+pub(crate) struct SurfaceTouch<'a> {
     /// The particle (slot).
     pub slot: u32,
     /// Index of the boundary.
@@ -24,6 +25,8 @@ pub(crate) struct SurfaceTouch {
     pub overlap: f64,
     /// How often it counts: 1, or the weight of a feature.
     pub weight: f64,
+    /// What the nodes around the foot give, where these have temperatures.
+    pub nodes: &'a [NodeWeights],
 }
 
 /// One kind of interaction, composed for the scene: its forces.

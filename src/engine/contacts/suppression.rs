@@ -4,7 +4,9 @@
 use super::records::PlacedSpring;
 use crate::base::number::Vector;
 use crate::engine::neighbours::bonds::is_bonded;
-use crate::engine::state::contacts::{BONDED, FRESH, LASTING, RELEASED, SILENT, SLIDING, TOUCHING, is_resting};
+use crate::engine::state::contacts::{
+    BONDED, FRESH, LASTING, RELEASED, SILENT, SLIDING, TOUCHING, is_resting, is_suppressed,
+};
 use crate::engine::state::{Row, State};
 use crate::laws::bond::creation::ContactPolicy;
 use crate::scene::{Bond, GoverningLaws, Scene};
@@ -19,6 +21,8 @@ pub(crate) struct Suppression {
     governing: GoverningLaws,
     /// Of each boundary that is a plane: material, point at time 0, normal.
     surfaces: Vec<Option<(u32, Vector, Vector)>>,
+    /// Of each contact law: which row of a contact has what it holds of losses that warm the bodies, if it holds any.
+    held: Vec<Option<usize>>,
     /// Whether a bond that suppresses was made in the present time step.
     fresh: bool,
 }
@@ -78,6 +82,7 @@ impl Suppression {
             planes: scene.bonds.iter().map(|bond| bond.plane.map(|plane| plane.0)).collect(),
             governing: scene.governing_laws(),
             surfaces: surfaces.collect(),
+            held: (0..scene.contacts.len()).map(|law| scene.law(law).history_places().held).collect(),
             fresh: false,
         }
     }
@@ -186,11 +191,20 @@ impl Suppression {
         if !std::mem::take(&mut self.fresh) {
             return;
         }
-        let pairs = state.contacts.iter_mut().map(|list| (&mut list.flags, &mut list.history));
-        let walls = state.walls.iter_mut().map(|list| (&mut list.flags, &mut list.history));
-        for (flags, history) in pairs.chain(walls) {
+        let State { contacts, walls, heat, .. } = state;
+        let pairs = contacts.iter_mut().zip(&self.held);
+        let pairs = pairs.map(|(list, held)| (&mut list.flags, &mut list.history, [&list.first, &list.second], held));
+        let walls = walls.iter_mut().map(|list| {
+            let (flags, history, particle) = (&mut list.flags, &mut list.history, &list.particle);
+            (flags, history, [particle; 2], &self.held[list.law as usize])
+        });
+        for (flags, history, bodies, held) in pairs.chain(walls) {
             for (entry, flags) in flags.iter_mut().enumerate().filter(|(_, flags)| **flags & FRESH != 0) {
                 *flags = (*flags | BONDED) & !(FRESH | RELEASED);
+                if let (Some(held), Some(heat), true) = (*held, heat.as_mut(), is_suppressed(*flags)) {
+                    let [along, about, ..] = std::mem::take(&mut history.get_mut(entry)[held]);
+                    bodies.iter().for_each(|slots| heat.of_losses[slots[entry] as usize] += 0.5 * (along + about));
+                }
                 if is_resting(*flags) {
                     *flags &= !(TOUCHING | SLIDING);
                     history.get_mut(entry).fill([0.0; 4]);

@@ -34,10 +34,7 @@ impl Simulation {
     /// The same in parts of at most so many time steps: goes on with the communication step that is under way, or begins one of
     /// `interval` \[s\]. Returns whether its end is reached. Parts, and saving the state between them, change no bit.
     pub fn advance_part(&mut self, interval: f64, most: u64) -> Result<bool, RunError> {
-        let mut workers = std::mem::take(&mut self.workers);
-        let outcome = workers.run(|threads| self.run((interval, most), threads));
-        self.workers = workers;
-        let (elapsed, result) = outcome?;
+        let (elapsed, result) = self.with_helpers(|it, threads| it.run((interval, most), threads))?;
         if self.state.underway.is_some() {
             return Ok(false);
         }
@@ -65,6 +62,16 @@ impl Simulation {
             let moves = |axis: &usize| moved.target[*axis] != stands(*axis) || moved.target_rate[*axis] != 0.0;
             if let Some(axis) = (0..6).filter(|&axis| boundary.axes[axis].is_driven()).find(moves) {
                 let (boundary, value) = (boundary.name.clone(), moved.target[axis]);
+                return Err(RunError::Frozen { boundary, value, time: self.time() });
+            }
+        }
+        for nodes in &self.state.nodes {
+            let stand = nodes.target.iter().zip(&nodes.displacement).zip(&nodes.target_rate);
+            let mut moved = stand.flat_map(|((target, now), rate)| {
+                (0..3).filter(|&axis| target[axis] != now[axis] || rate[axis] != 0.0).map(|axis| target[axis])
+            });
+            if let Some(value) = moved.next() {
+                let boundary = self.scene.boundaries[nodes.boundary as usize].name.clone();
                 return Err(RunError::Frozen { boundary, value, time: self.time() });
             }
         }

@@ -5,7 +5,7 @@ use super::stages::Stages;
 use super::{RunError, Simulation, Workspace, assemble};
 use crate::base::geometry::Quaternion;
 use crate::base::lanes::Width;
-use crate::base::threads::{Context, Workers};
+use crate::base::threads::{Context, Threads, Workers};
 use crate::engine::bodies::{self, ClumpBodies, boundary};
 use crate::engine::boundaries::passing::Passing;
 use crate::engine::cell::Cell;
@@ -88,14 +88,16 @@ impl Simulation {
     pub(super) fn build(&mut self) -> Result<(), RunError> {
         self.give_orientations();
         boundary::place_groups(&self.scene, &self.bodies, &mut self.state);
-        let context = Context { step: 0.0, width: self.width, threads: None };
         if let Some(clumps) = &self.shapes {
             clumps.place(&mut self.state);
         }
         self.check_memory()?;
-        self.rebuild(&context);
-        let time = self.state.clock.time;
-        self.make_bonds(&Moment { number: self.state.clock.steps, from: time, to: time }, &context);
+        self.with_helpers(|it, threads| {
+            let context = Context { threads, ..it.standing() };
+            it.rebuild(&context);
+            let time = it.state.clock.time;
+            it.make_bonds(&Moment { number: it.state.clock.steps, from: time, to: time }, &context);
+        });
         Ok(())
     }
 
@@ -108,9 +110,14 @@ impl Simulation {
 
     /// The evaluation before the first step, and what follows from it.
     pub(super) fn start(&mut self) -> Result<(), RunError> {
+        self.with_helpers(Self::start_with)
+    }
+
+    /// The same, with these helpers.
+    fn start_with(&mut self, threads: Option<&Threads>) -> Result<(), RunError> {
         transfer::take(&self.scene, &mut self.state);
         self.state.begin_counting();
-        let context = self.standing();
+        let context = Context { threads, ..self.standing() };
         fluid::renew(self.medium.as_ref(), &self.scene, &mut self.state, &context);
         let result = self.evaluate(&context);
         self.book_second_kick(None, &context);

@@ -4,6 +4,7 @@ use super::time_step::TimeStep;
 use super::{RunError, Simulation};
 use crate::engine::energy::losses::StoredEnergy;
 use crate::engine::flow::{Flow, RemovedParticles};
+use crate::engine::transfer;
 
 impl Simulation {
     /// Lets particles come and go in the middle of a time step. Where any did, lists are to be made anew.
@@ -45,14 +46,12 @@ impl Simulation {
         let (passes, state) = (&self.passes, &mut self.state);
         let goes = state.with_all(&leaving.goes);
         let given: f64 = passes.iter().map(|pass| pass.let_go(state, &goes, step)).sum();
+        let remembered = transfer::remembered(&self.scene, &self.state, &goes);
         flow.remove(&self.scene, &self.fields, &mut self.state, leaving, step);
         if let Some((elastic, StoredEnergy(before))) = before {
             let (left, StoredEnergy(after)) = held(self);
-            flow.book_contacts(
-                &mut self.state,
-                elastic + given - left,
-                [0, 1, 2].map(|cause| before[cause] - after[cause]),
-            );
+            let of = |cause: usize| remembered[cause].unwrap_or(before[cause] - after[cause]);
+            flow.book_contacts(&mut self.state, elastic + given - left, [0, 1, 2].map(of));
         }
     }
 

@@ -2,18 +2,30 @@
 
 use super::Simulation;
 use crate::base::quantity::BoundaryIndex;
+use crate::engine::state::BoundaryState;
 use crate::engine::state::fluid::FluidField;
 
 impl Simulation {
     /// Sets the input of an axis for the next interval, along x, y, z (0 to 2) or about them (3 to 5): where a driven axis
     /// is to be at its end \[m, rad\] or how fast it moves \[m/s, rad/s\], the load on one that forces move \[N, N m\], the force
-    /// that a servo is to reach \[N\].
+    /// that a servo is to reach \[N\]. Those that move with the boundary get it, too.
     pub fn set_input(&mut self, boundary: BoundaryIndex, axis: usize, value: f64) {
-        let boundary = &mut self.state.boundaries[boundary.index()];
-        boundary.target[axis] = value;
-        boundary.target_rate[axis] = 0.0;
-        if let Some(acceleration) = boundary.target_acceleration.get_mut(axis) {
-            *acceleration = 0.0;
+        self.each_led(boundary, |moved| {
+            moved.target[axis] = value;
+            moved.target_rate[axis] = 0.0;
+            if let Some(acceleration) = moved.target_acceleration.get_mut(axis) {
+                *acceleration = 0.0;
+            }
+        });
+    }
+
+    /// Does something with the state of a boundary and of all that move with it.
+    fn each_led(&mut self, leader: BoundaryIndex, mut what: impl FnMut(&mut BoundaryState)) {
+        let boundaries = self.scene.boundaries.iter().zip(&mut self.state.boundaries).enumerate();
+        for (place, (boundary, moved)) in boundaries {
+            if place == leader.index() || boundary.moves_with == Some(leader) {
+                what(moved);
+            }
         }
     }
 
@@ -49,7 +61,7 @@ impl Simulation {
 
     /// The rate of that value over the next interval: it then ends at the value plus rate × interval.
     pub fn set_input_rate(&mut self, boundary: BoundaryIndex, axis: usize, rate: f64) {
-        self.state.boundaries[boundary.index()].target_rate[axis] = rate;
+        self.each_led(boundary, |moved| moved.target_rate[axis] = rate);
     }
 
     /// Sets the thermal input of a boundary for the next interval: its temperature at the end \[K\] or, where it has a heat capacity,
@@ -105,6 +117,6 @@ impl Simulation {
     /// The second derivative of that value over the next interval, along x, y or z: the axis then moves at this acceleration, and ends
     /// at the value plus rate × interval + ½ acceleration × interval² \[m/s²\].
     pub fn set_input_acceleration(&mut self, boundary: BoundaryIndex, axis: usize, acceleration: f64) {
-        self.state.boundaries[boundary.index()].target_acceleration[axis] = acceleration;
+        self.each_led(boundary, |moved| moved.target_acceleration[axis] = acceleration);
     }
 }

@@ -50,9 +50,7 @@ impl Simulation {
     /// Makes new neighbour lists, as happens from time to time by motion: results change by rounding only.
     pub fn renew_lists(&mut self) {
         self.rollback.forget();
-        let mut workers = std::mem::take(&mut self.workers);
-        workers.run(|threads| self.rebuild(&Context { step: 0.0, width: self.width, threads }));
-        self.workers = workers;
+        self.with_helpers(|it, threads| it.rebuild(&Context { threads, ..it.standing() }));
     }
 
     /// Makes the bonds that are to be made at this moment.

@@ -40,7 +40,7 @@ pub use stages::{Part, Phase, Stage, all_stages};
 pub use taken_over::Description;
 
 use crate::base::lanes::Width;
-use crate::base::threads::{Context, Workers};
+use crate::base::threads::{Context, Threads, Workers};
 use crate::engine::bodies::{ClumpBodies, RigidBody, Striker};
 use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
@@ -144,6 +144,14 @@ impl Simulation {
     /// What passes know while time does not advance.
     fn standing(&self) -> Context<'static> {
         Context { step: 0.0, width: self.width, threads: None }
+    }
+
+    /// Does work to which the helpers come, if there are any.
+    fn with_helpers<T>(&mut self, work: impl FnOnce(&mut Self, Option<&Threads>) -> T) -> T {
+        let mut workers = std::mem::take(&mut self.workers);
+        let done = workers.run(|threads| work(self, threads));
+        self.workers = workers;
+        done
     }
 
     /// Uses this lane width from now on. Every width gives the same bits.

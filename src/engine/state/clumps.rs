@@ -173,7 +173,32 @@ impl Clumps {
     }
 }
 
+/// What counts as one: a particle that is of no clump, or a clump.
+pub(crate) struct Grain<'a> {
+    /// Centre, of clumps of mass \[m\].
+    pub(crate) position: &'a Row,
+    /// Velocity \[m/s\] and mass \[kg\].
+    pub(crate) velocity: &'a Row,
+    /// Index of the particle, or of the first sphere.
+    pub(crate) index: u32,
+}
+
 impl State {
+    /// What counts as one: particles by ascending index, then clumps.
+    pub(crate) fn grains(&self) -> impl Iterator<Item = Grain<'_>> {
+        let Self { particles, clumps, .. } = self;
+        let loose = particles.slots().filter(|&slot| self.clump(slot).is_none()).map(|slot| Grain {
+            position: &particles.position[slot],
+            velocity: &particles.velocity[slot],
+            index: particles.id[slot],
+        });
+        loose.chain((0..clumps.len()).map(|clump| Grain {
+            position: &clumps.position[clump],
+            velocity: &clumps.velocity[clump],
+            index: clumps.spheres_of(clump)[0],
+        }))
+    }
+
     /// Appends a clump of this number and its spheres. `turning`: whether particles have an orientation.
     pub(crate) fn add_clump(&mut self, rows: &ClumpRows, number: u32, spheres: &[InsertedParticle], turning: bool) {
         let owner = (self.boundaries.len() + self.clumps.len()) as u32 + 1;

@@ -5,6 +5,7 @@ use crate::engine::contacts::SurfaceTouch;
 use crate::engine::state::{ContactList, Row, State};
 use crate::laws::contact::heat::Spot;
 use crate::laws::contact::{Adhesion, HeatModel, NormalModel};
+use crate::laws::surface::NodeWeights;
 use crate::scene::Scene;
 use std::f64::consts::PI;
 
@@ -13,8 +14,8 @@ pub(super) trait Conductances {
     /// Two particles (slots) conduct \[W/K\].
     fn between(&mut self, first: u32, second: u32, conductance: f64);
 
-    /// A particle (slot) and a boundary conduct \[W/K\].
-    fn at_boundary(&mut self, slot: u32, boundary: u32, conductance: f64);
+    /// A particle (slot) and a boundary conduct \[W/K\], where nodes have temperatures by these around the foot.
+    fn at_boundary(&mut self, slot: u32, boundary: u32, nodes: &[NodeWeights], conductance: f64);
 }
 
 /// What a contact law conducts.
@@ -87,7 +88,7 @@ impl Conduction {
 
     /// Tells what a particle and a boundary conduct.
     pub(super) fn at_boundary(&self, scene: &Scene, touch: &SurfaceTouch, state: &State, hear: &mut impl Conductances) {
-        let &SurfaceTouch { slot, boundary, overlap, weight, .. } = touch;
+        let &SurfaceTouch { slot, boundary, overlap, weight, nodes, .. } = touch;
         let Some(wall) = scene.boundaries[boundary as usize].shape.material() else { return };
         let (radius, material) =
             (state.particles.position[slot as usize][3], state.particles.material[slot as usize] as usize);
@@ -98,7 +99,7 @@ impl Conduction {
         let contact_radius = (self.normal.row().does.contact_radius)(self.normal_row(state, entry), overlap, radius);
         let spot = Spot::at_wall(radius, overlap, contact_radius);
         let conductance = (self.model.row().does.conductance)(self.row(entry), &spot);
-        hear.at_boundary(slot, boundary, weight * conductance);
+        hear.at_boundary(slot, boundary, nodes, weight * conductance);
     }
 }
 
@@ -127,7 +128,7 @@ impl BondConduction {
                 let shift = Vector::from(state.boundaries[plane.index()].displacement);
                 let length = (Vector::from(from) - Vector::from(list.foot[entry]) - shift).length();
                 if scene.boundaries[plane.index()].temperature.at_start().is_some() {
-                    hear.at_boundary(first, plane.0, conductance(from[3], length));
+                    hear.at_boundary(first, plane.0, &[], conductance(from[3], length));
                 }
                 continue;
             };

@@ -8,6 +8,7 @@ use crate::base::number::{add, larger};
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::state::heat::{BoundaryHeat, difference, exchange};
 use crate::engine::state::{GONE, Heat, IMAGE, Particles, Row, State};
+use crate::laws::surface::NodeWeights;
 
 /// What has the temperature of a particle.
 pub(super) enum Body {
@@ -18,7 +19,7 @@ pub(super) enum Body {
 }
 
 /// What has the temperature of the particle in a slot.
-#[inline]
+#[inline(always)]
 pub(super) fn body(state: &State, slot: usize) -> Body {
     let particles = &state.particles;
     if particles.owner[slot] == 0 {
@@ -64,7 +65,8 @@ impl Conductances for Heat {
         }
     }
 
-    fn at_boundary(&mut self, slot: u32, boundary: u32, conductance: f64) {
+    // What is told here are bonds, and contacts that they suppress: none is with a mesh.
+    fn at_boundary(&mut self, slot: u32, boundary: u32, _nodes: &[NodeWeights], conductance: f64) {
         let boundary = &mut self.boundaries[boundary as usize];
         let mut surface = [boundary.initial, boundary.rise, 0.0, 0.0];
         exchange([&mut self.slots[slot as usize], &mut surface], conductance);
@@ -90,14 +92,25 @@ pub(super) fn take_losses(heat: &mut Heat, step: f64) {
     heat.by_losses += sum + given;
 }
 
+/// Gives heat of a loss \[J\] to what has the temperature of the particle in a slot, between time steps.
+pub(crate) fn warm_at_once(state: &mut State, slot: u32, energy: f64) {
+    let body = body(state, slot as usize);
+    let Some(heat) = &mut state.heat else { return };
+    heat.by_losses += energy;
+    match body {
+        Body::Particle(index) => heat.gained[index] += energy,
+        Body::Boundary(boundary) => heat.boundaries[boundary].present += energy,
+    }
+}
+
 /// Adds what flows into images to their particles, then what flows into spheres of clumps and particles of groups to what has their
 /// temperature.
 pub(super) fn gather(state: &State, heat: &mut Heat) {
     let particles = &state.particles;
     let slots = &mut heat.slots;
-    for slot in (0..particles.len()).filter(|&slot| particles.owner[slot] == IMAGE) {
-        let flow = taken(&mut slots[slot]);
-        add(&mut slots[particles.original(slot as u32) as usize], &flow);
+    for (&image, &original) in state.cell.iter().flat_map(|cell| cell.images.iter().zip(&cell.originals)) {
+        let flow = taken(&mut slots[image as usize]);
+        add(&mut slots[original as usize], &flow);
     }
     let is_owned = |slot: &usize| ![0, IMAGE].contains(&particles.owner[*slot]);
     for slot in (0..particles.len()).filter(is_owned) {

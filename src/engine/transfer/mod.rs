@@ -8,6 +8,7 @@ mod begin;
 mod boundaries;
 mod conduction;
 mod flows;
+mod held;
 mod network;
 mod relaxation;
 mod renew;
@@ -24,6 +25,8 @@ pub(crate) use begin::{begun, take, tell};
 use boundaries::Ramp;
 pub(crate) use boundaries::{begin, end, put, takes_heat};
 use conduction::{BondConduction, Conductances, Conduction};
+pub(crate) use flows::warm_at_once;
+pub(crate) use held::remembered;
 use relaxation::Relaxation;
 
 /// What conducts, composed for the scene.

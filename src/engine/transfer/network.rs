@@ -3,11 +3,12 @@
 use super::conduction::Conductances;
 use super::flows::{Body, body};
 use crate::engine::state::State;
+use crate::laws::surface::NodeWeights;
 
 /// What leads to a node: another one and a conductance.
 type Lead = (u32, f64);
 
-/// Bodies and surroundings as nodes: particles by their index, then boundaries, then the surroundings of sources.
+/// Bodies and surroundings as nodes: particles by their index, then boundaries, the surroundings of sources, and feet ([`NodeFoot`]).
 #[derive(Default)]
 pub(super) struct Network {
     /// Each conductance \[W/K\] with its two nodes, as it was told.
@@ -73,12 +74,26 @@ impl Network {
     }
 }
 
+/// Where a particle touches a mesh whose nodes have temperatures: a node of the network for itself.
+pub(super) struct NodeFoot {
+    /// The boundary.
+    pub(super) boundary: usize,
+    /// The mesh among those whose nodes have temperatures.
+    pub(super) mesh: usize,
+    /// Nodes of the mesh, and their shares of the foot.
+    pub(super) shares: Vec<(u32, f64)>,
+}
+
 /// A network that is told what conducts in a state.
 pub(super) struct Told<'a> {
     /// The state.
     pub(super) state: &'a State,
     /// The network.
     pub(super) network: &'a mut Network,
+    /// The feet on meshes whose nodes have temperatures.
+    pub(super) feet: &'a mut Vec<NodeFoot>,
+    /// The node of the first of them.
+    pub(super) first_foot: usize,
 }
 
 impl Told<'_> {
@@ -94,6 +109,14 @@ impl Told<'_> {
     fn boundary(&self, boundary: usize) -> usize {
         self.state.particles.slot.len() + boundary
     }
+
+    /// The node of a foot on a boundary whose nodes have temperatures.
+    fn foot(&mut self, boundary: usize, nodes: &[NodeWeights]) -> Option<usize> {
+        let meshes = &self.state.heat.as_ref()?.nodes;
+        let mesh = meshes.iter().position(|mesh| mesh.boundary as usize == boundary && !nodes.is_empty())?;
+        self.feet.push(NodeFoot { boundary, mesh, shares: nodes.iter().map(|it| (it.node, it.weight())).collect() });
+        Some(self.first_foot + self.feet.len() - 1)
+    }
 }
 
 impl Conductances for Told<'_> {
@@ -101,8 +124,10 @@ impl Conductances for Told<'_> {
         self.network.connect(self.node(first), self.node(second), conductance);
     }
 
-    fn at_boundary(&mut self, slot: u32, boundary: u32, conductance: f64) {
-        self.network.connect(self.node(slot), self.boundary(boundary as usize), conductance);
+    fn at_boundary(&mut self, slot: u32, boundary: u32, nodes: &[NodeWeights], conductance: f64) {
+        let own = self.boundary(boundary as usize);
+        let node = self.foot(boundary as usize, nodes).unwrap_or(own);
+        self.network.connect(self.node(slot), node, conductance);
     }
 }
 

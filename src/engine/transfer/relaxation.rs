@@ -4,7 +4,7 @@
 //! 2 ΣH/C. The stages of a time step ([`Stages`]) keep it stable whatever its length; its length follows from what it is wrong by.
 
 use super::boundaries::{Ramp, is_driven, takes_heat};
-use super::network::{Network, Told};
+use super::network::{Network, NodeFoot, Told};
 use super::scheme::{Stage, Stages};
 use super::{Transfer, sources};
 use crate::base::lanes::Shared;
@@ -43,6 +43,10 @@ pub(super) struct Relaxation {
     increments: [Vec<f64>; 2],
     /// Where the network's nodes of surroundings begin.
     surroundings: usize,
+    /// Where those of feet on meshes begin whose nodes have temperatures.
+    first_foot: usize,
+    /// These feet.
+    feet: Vec<NodeFoot>,
     /// Whether the network is that of the present communication step.
     is_connected: bool,
 }
@@ -83,11 +87,14 @@ impl Relaxation {
     pub(super) fn connect(&mut self, transfer: &Transfer, (scene, passes): (&Scene, &[Box<dyn Pass>]), state: &State) {
         let particles = state.particles.slot.len();
         self.network.clear();
-        let mut told = Told { state, network: &mut self.network };
-        transfer.tell((scene, passes), state, &mut told);
+        self.feet.clear();
         self.surroundings = particles + scene.boundaries.len();
+        self.first_foot = self.surroundings + scene.heat_sources.len();
+        let (network, feet, first_foot) = (&mut self.network, &mut self.feet, self.first_foot);
+        let mut told = Told { state, network, feet, first_foot };
+        transfer.tell((scene, passes), state, &mut told);
         self.power.clear();
-        self.power.resize(self.surroundings + scene.heat_sources.len(), 0.0);
+        self.power.resize(first_foot + told.feet.len(), 0.0);
         self.levels.clear();
         self.levels.resize(self.power.len(), [0.0; 2]);
         for (place, source) in (self.surroundings..).zip(&scene.heat_sources) {
@@ -158,8 +165,11 @@ impl Relaxation {
         let mut take = |temperature: f64| (least, most) = (least.min(temperature), larger(most, temperature));
         let warm = heat.capacity.iter().enumerate().filter(|(_, capacity)| **capacity > 0.0);
         warm.for_each(|(index, _)| take(heat.temperature(index)));
-        let surroundings = self.levels[self.surroundings..].iter().filter(|level| level[0] > 0.0);
+        let surroundings = self.levels[self.surroundings..self.first_foot].iter().filter(|level| level[0] > 0.0);
         surroundings.for_each(|level| take(level[0]));
+        for node in heat.nodes.iter().flat_map(|mesh| &mesh.each) {
+            [0.0, 1.0].into_iter().for_each(|reached| take(node.initial + ramp.rise(true, node, 0.0, reached)));
+        }
         for (boundary, moved) in scene.boundaries.iter().zip(&heat.boundaries).filter(|(it, _)| takes_heat(it)) {
             [0.0, 1.0]
                 .into_iter()
@@ -202,7 +212,7 @@ impl Relaxation {
 
     /// Finds the temperatures at this share of a time step with what has come until then, and what flows.
     fn look(&mut self, scene: &Scene, heat: &Heat, (ramp, reached): (&Ramp, f64), context: &Context) {
-        let Self { network, levels, power, flows: [_, now], increments: [came, _], .. } = self;
+        let Self { network, levels, power, flows: [_, now], increments: [came, _], feet, first_foot, .. } = self;
         let particles = heat.capacity.len();
         let places = Shared::new(levels);
         context.each(particles.div_ceil(CHUNK), |piece| {
@@ -215,6 +225,13 @@ impl Relaxation {
         });
         for ((node, boundary), moved) in (particles..).zip(&scene.boundaries).zip(&heat.boundaries) {
             levels[node] = [moved.initial, ramp.rise(is_driven(boundary), moved, came[node], reached)];
+        }
+        for (level, foot) in levels[*first_foot..].iter_mut().zip(feet) {
+            let nodes = &heat.nodes[foot.mesh].each;
+            *level = foot.shares.iter().fold([0.0; 2], |[t, rise], &(node, share)| {
+                let moved = &nodes[node as usize];
+                [t + share * moved.initial, rise + share * ramp.rise(true, moved, 0.0, reached)]
+            });
         }
         let (levels, now, nodes) = (&*levels, Shared::new(now), power.len());
         context.each(nodes.div_ceil(CHUNK), |piece| {
@@ -237,8 +254,14 @@ impl Relaxation {
             moved.present += came;
             ramp.advance(is_driven(boundary), moved);
         }
+        for (foot, came) in self.feet.iter().zip(&came[self.first_foot..]) {
+            heat.boundaries[foot.boundary].present += came;
+            let nodes = &mut heat.nodes[foot.mesh].each;
+            foot.shares.iter().for_each(|&(node, share)| nodes[node as usize].present += share * came);
+        }
+        heat.nodes.iter_mut().flat_map(|mesh| &mut mesh.each).for_each(|node| ramp.advance(true, node));
         let power: f64 = self.power.iter().sum();
-        heat.given += ramp.step * power - came[self.surroundings..].iter().sum::<f64>();
+        heat.given += ramp.step * power - came[self.surroundings..self.first_foot].iter().sum::<f64>();
         self.flows.swap(0, 1);
     }
 
@@ -247,6 +270,12 @@ impl Relaxation {
         let (particles, boundaries) = self.flows[0].split_at(heat.flow.len());
         heat.flow.copy_from_slice(particles);
         heat.boundaries.iter_mut().zip(boundaries).for_each(|(boundary, flow)| boundary.flow = *flow);
+        heat.nodes.iter_mut().flat_map(|mesh| &mut mesh.each).for_each(|node| node.flow = 0.0);
+        for (foot, flow) in self.feet.iter().zip(&self.flows[0][self.first_foot..]) {
+            heat.boundaries[foot.boundary].flow += flow;
+            let nodes = &mut heat.nodes[foot.mesh].each;
+            foot.shares.iter().for_each(|&(node, share)| nodes[node as usize].flow += share * flow);
+        }
     }
 }
 

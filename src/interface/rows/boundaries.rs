@@ -21,7 +21,12 @@ const fn given<const FIRST: usize>() -> Option<Write> {
 
 /// What the outside sees of an axis: 0 to 2 along x, y, z, 3 to 5 about them.
 fn seen(scene: &Scene, at: At, first: usize) -> ShownVariables {
-    scene.boundaries[at.boundary.index()].axes[first + at.axis()].seen()
+    let boundary = &scene.boundaries[at.boundary.index()];
+    match boundary.axes[first + at.axis()].seen() {
+        // The input is that of the boundary with which it moves.
+        ShownVariables::Input | ShownVariables::Rate if boundary.moves_with.is_some() => ShownVariables::Place,
+        seen => seen,
+    }
 }
 
 /// Whether the outside moves it.

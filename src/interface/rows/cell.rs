@@ -68,8 +68,8 @@ pub(super) static OF_CELLS: [Row; 15] = [
     },
     Row {
         name: "cell.target_stress",
-        description: "stress {axis} of the cell that its servo is to reach, tension positive; held in a communication step, or \
-                      changing at its rate",
+        description: "stress {axis} of the cell, or mean of the normal ones, that its servo is to reach, tension positive; held in a \
+                      communication step, or changing at its rate",
         quantity: Quantity::Pressure,
         exists: is_served,
         write: GIVEN,
@@ -93,12 +93,13 @@ pub(super) static OF_CELLS: [Row; 15] = [
     },
     Row {
         name: "cell.servo_error",
-        description: "what the stress {axis} of the cell lacks of its target",
+        description: "what the stress {axis} of the cell, or the mean stress, lacks of its target",
         quantity: Quantity::Pressure,
         exists: is_served,
         read: |now, at| {
-            let stress = now.findings.cell_stress(now.simulation)[at.axis()];
-            Value::Real(now.cell(|cell| cell.target[at.axis()]) - stress)
+            let stresses = now.findings.cell_stress(now.simulation);
+            let served = motion(now.simulation.scene(), at).map_or(0.0, |motion| motion.served(at.axis(), stresses));
+            Value::Real(now.cell(|cell| cell.target[at.axis()]) - served)
         },
         ..OF_COMPONENT
     },

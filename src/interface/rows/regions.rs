@@ -60,6 +60,14 @@ pub(super) static OF_REGIONS: [Row; 9] = [
         ..OF_REGION
     },
     Row {
+        name: "velocity",
+        each: Each::RegionAxis,
+        description: "mean velocity of the mass in {region} along {axis}; 0 where there is none",
+        quantity: Quantity::Velocity,
+        read: |now, at| Value::Real(now.content(at).velocity[at.axis()]),
+        ..OF_REGION
+    },
+    Row {
         name: "count",
         each: Each::Region,
         description: "number of particles whose centre is in {region}, a clump as one",
@@ -72,13 +80,5 @@ pub(super) static OF_REGIONS: [Row; 9] = [
         description: "number of particles of the set {axis} whose centre is in {region}, a clump as one",
         read: |now, at| count(now.findings.counts(now.simulation, at.place()).of_set[at.axis()]),
         ..COUNT
-    },
-    Row {
-        name: "velocity",
-        each: Each::RegionAxis,
-        description: "mean velocity of the mass in {region} along {axis}; 0 where there is none",
-        quantity: Quantity::Velocity,
-        read: |now, at| Value::Real(now.content(at).velocity[at.axis()]),
-        ..OF_REGION
     },
 ];

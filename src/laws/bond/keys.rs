@@ -7,6 +7,7 @@ pub use super::key_error::KeyError;
 pub use super::part_keys::PartKeys;
 
 use super::creation::{ContactPolicy, Creation};
+use crate::base::document::keys;
 use crate::base::quantity::{NonNegative, Positive};
 use serde::{Deserialize, Deserializer};
 
@@ -27,55 +28,58 @@ fn yes() -> bool {
     true
 }
 
-/// `[bond.<name>]`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// The formulation; `finite_rotation` where absent.
-    #[serde(default)]
-    pub formulation: FormulationChoice,
-    /// Two particle sets (or one twice), or a particle set and a plane.
-    pub between: [String; 2],
-    /// When bonds are made; `"start"` where absent.
-    #[serde(default)]
-    pub create: Creation,
-    /// Distance of the centres below which they are made; at a plane, half of it from the centre \[m\].
-    pub create_distance: Option<Positive>,
-    /// λ: bond radius over the smaller radius; 1 where absent.
-    pub radius_multiplier: Option<Positive>,
-    /// k_n, per unit area \[Pa/m\].
-    pub normal_stiffness: Positive,
-    /// k_t, per unit area \[Pa/m\].
-    pub tangential_stiffness: NonNegative,
-    /// Whether a stretched bond pulls.
-    #[serde(default = "yes")]
-    pub tension: bool,
-    /// Whether a compressed bond pushes.
-    #[serde(default = "yes")]
-    pub compression: bool,
-    /// Whether it bears shear.
-    #[serde(default = "yes")]
-    pub shear: bool,
-    /// Whether it bears torsion.
-    #[serde(default = "yes")]
-    pub torsion: bool,
-    /// Whether it bears bending.
-    #[serde(default = "yes")]
-    pub bending: bool,
-    /// What the contact law does between the bonded bodies.
-    #[serde(default)]
-    pub contact: ContactPolicy,
-    /// When bonds break, in the order of the rules; never where there is none. The reader of scenes reads each by its row.
-    #[serde(skip)]
-    pub breakage: Vec<BreakageChoice>,
-    /// Damping; none where absent.
-    pub damping: Option<DampingChoice>,
-    /// τ: relaxation times \[s\]; none where absent.
-    pub relaxation: Option<PartKeys<Positive>>,
-    /// Conductivity of its material, in parallel to the contact; none where the bond conducts nothing \[W/(m K)\].
-    pub conductivity: Option<Positive>,
-    /// Refused.
-    pub temperature_break: Option<Never>,
+keys! {
+    /// `[bond.<name>]`
+    #[derive(Clone, Debug)]
+    pub struct Keys {
+        /// `"finite_rotation"`, `"incremental"`, `"engine_exact"`.
+        #[serde(default)]
+        pub formulation: FormulationChoice = "`\"finite_rotation\"`",
+        /// Two particle sets (the same set twice bonds particles within it), or a particle set and a plane boundary.
+        pub between: [String; 2] = "required",
+        /// When bonds are made: see below.
+        #[serde(default)]
+        pub create: Creation = "`\"start\"`",
+        /// Two particles are bonded if their centres are nearer than this; a particle and a plane, if twice the distance of the centre
+        /// from the plane is below it \[m\].
+        pub create_distance: Option<Positive> = "required unless the pairs are listed",
+        /// λ: bond radius r_b = λ min(R_i, R_j), at a plane λ R_i.
+        pub radius_multiplier: Option<Positive> = "1",
+        /// k_n, per unit area \[Pa/m\].
+        pub normal_stiffness: Positive = "required",
+        /// k_t, per unit area \[Pa/m\].
+        pub tangential_stiffness: NonNegative = "required",
+        /// Whether a stretched bond pulls.
+        #[serde(default = "yes")]
+        pub tension: bool = "`true`",
+        /// Whether a compressed bond pushes.
+        #[serde(default = "yes")]
+        pub compression: bool = "`true`",
+        /// Whether the bond bears shear.
+        #[serde(default = "yes")]
+        pub shear: bool = "`true`",
+        /// Whether the bond bears torsion.
+        #[serde(default = "yes")]
+        pub torsion: bool = "`true`",
+        /// Whether the bond bears bending.
+        #[serde(default = "yes")]
+        pub bending: bool = "`true`",
+        /// What the contact law does between bonded bodies: see below.
+        #[serde(default)]
+        pub contact: ContactPolicy = "`\"parallel\"`",
+        /// A table of one damping model: see below.
+        pub damping: Option<DampingChoice> = "none",
+        /// Relaxation times τ of its parts \[s\]: see below.
+        pub relaxation: Option<PartKeys<Positive>> = "none",
+        /// Conductivity of its material, in parallel to the contact \[W/(m K)\].
+        pub conductivity: Option<Positive> = "conducts nothing",
+    } beside {
+        /// When bonds break, in the order of the rules; never where there is none. The reader of scenes reads each by its row.
+        #[serde(skip)]
+        pub breakage: Vec<BreakageChoice>,
+        /// Refused.
+        pub temperature_break: Option<Never>,
+    }
 }
 
 impl Keys {

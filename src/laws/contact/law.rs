@@ -40,6 +40,10 @@ const LOADS: HistoryRow = HistoryRow { name: "dashpots before", odd: [false, tru
 const OTHER_LOADS: HistoryRow =
     HistoryRow { name: "other loads before", odd: [false, true, true, true], fourth_is_free: false };
 
+/// What is remembered where losses warm the bodies: what the contact holds of them, along the normal and against rolling, as often as its
+/// forces count \[J\].
+const HELD: HistoryRow = HistoryRow { name: "energy held", odd: [false; 4], fourth_is_free: false };
+
 /// What is remembered of an impact: loss along the normal and across it \[J\], largest normal force \[N\], duration so far \[s\].
 const IMPACT: HistoryRow = HistoryRow { name: "impact", odd: [false; 4], fourth_is_free: false };
 
@@ -75,9 +79,28 @@ impl Law {
         self
     }
 
-    /// The same law, of which these losses warm the bodies.
-    pub fn warming(self, warming: Warming) -> Self {
-        Self { warming, ..self }
+    /// The same law, of which these losses warm the bodies: work against attraction does not, for it comes back.
+    pub fn warming(mut self, mut warming: Warming) -> Self {
+        warming[LossKind::Other as usize] &= self.is_plastic();
+        self.warming = warming;
+        if self.holds().contains(&true) {
+            self.history_places.held = Some(self.history.len());
+            self.history.push(HELD);
+        }
+        self
+    }
+
+    /// Whether its plastic normal force, and whether its rolling spring, holds part of what warms the bodies.
+    fn holds(&self) -> [bool; 2] {
+        let rolls = self.choice.rolling.row().history().is_some();
+        [self.warming[LossKind::Other as usize], self.warming[LossKind::Rolling as usize] && rolls]
+    }
+
+    /// What a contact holds of losses that warm the bodies, along the normal and against rolling \[J\].
+    pub(crate) fn held(&self, row: &[f64], contact: &Contact, history: &[Row]) -> [f64; 2] {
+        let [plastic, rolling] = self.holds();
+        let plastic = if plastic { self.normal_energy(row, contact, 0.0, history) } else { 0.0 };
+        [plastic, if rolling { self.rolling_energy(row, contact, history) } else { 0.0 }]
     }
 
     /// The same law, of whose contacts records show exactly what the last evaluation saw.

@@ -259,8 +259,8 @@ pub struct Friction<N: Number = f64> {
 }
 
 /// Rows that a law remembers of a contact at most: one each of its four sub-models and of the scheme, one of records, two of a
-/// book of losses, and two of single impacts.
-pub const MOST_HISTORY: usize = 10;
+/// book of losses, one of what it holds, and two of single impacts.
+pub const MOST_HISTORY: usize = 11;
 
 /// The history that a sub-model stores of a contact from one evaluation to the next: a row of four numbers, zero at first
 /// touch and removed with the contact.

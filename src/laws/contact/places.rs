@@ -21,6 +21,8 @@ pub struct HistoryPlaces {
     pub loads: Option<usize>,
     /// Of a book of losses: what else acted.
     pub other_loads: Option<usize>,
+    /// Of losses that warm the bodies: what the contact holds of them.
+    pub held: Option<usize>,
     /// Of single impacts: what each lost so far, and, in the row behind it, how it began.
     pub impact: Option<usize>,
 }

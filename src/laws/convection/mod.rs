@@ -36,9 +36,9 @@ pub trait Convection: std::fmt::Debug + Send + Sync + 'static {
 
 #[cfg(test)]
 mod tests {
+    use super::Convection;
     use super::gunn::Gunn;
     use super::ranz_marshall::RanzMarshall;
-    use super::*;
 
     #[test]
     fn a_sphere_in_a_fluid_at_rest_has_a_nusselt_number_of_2() {

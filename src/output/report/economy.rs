@@ -107,6 +107,7 @@ fn as_a_group(scene: &Arc<Scene>, present: &Simulation, bond: &Bond) -> Option<S
         reference: [0, 1, 2].map(centre),
         shape: Shape::of(Group { members }),
         axes: [const { AxisMotion::Free }; 6],
+        moves_with: None,
         nodes: NodeMotion::Rigid,
         input: InputCourse::Ramp,
         body: Body::default(),

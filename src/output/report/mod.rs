@@ -202,7 +202,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .zip(&simulation.state().bonds)
             .map(|(bond, list)| format!("bond {}: {} at the start", bond.name, counted(list.first.len(), "bond"))),
     );
-    uses.extend(scene.boundaries.iter().map(boundary));
+    uses.extend(scene.boundaries.iter().map(|it| boundary(scene, it)));
     if scene.gravity.iter().any(|part| *part != 0.0) {
         uses.push(format!("gravity {:?} m/s²", scene.gravity));
     }
@@ -273,7 +273,11 @@ fn exchange(scene: &Scene) -> Vec<String> {
         let moves = STRAINS.into_iter().zip(cell.motion).filter_map(|(name, motion)| match motion {
             CellMotion::Fixed => None,
             CellMotion::Driven => Some(format!("{name} driven")),
-            CellMotion::Servo(servo) => Some(format!("{name} servo, from {} Pa on", servo.stress)),
+            CellMotion::Prescribed(rate) => Some(format!("{name} at {rate} 1/s")),
+            CellMotion::Servo(servo) => {
+                let of = if motion.serves_mean() { " of the mean stress" } else { "" };
+                Some(format!("{name} servo{of}, from {} Pa on", servo.stress))
+            }
         });
         let moves: Vec<String> = moves.collect();
         let moves = if moves.is_empty() { "fixed".to_owned() } else { moves.join(", ") };
@@ -315,7 +319,16 @@ fn grid(grid: &Grid) -> String {
 }
 
 /// A boundary in one line.
-fn boundary(boundary: &Boundary) -> String {
+fn boundary(scene: &Scene, boundary: &Boundary) -> String {
+    if let Some(leader) = boundary.moves_with {
+        let leader = &scene.boundaries[leader.index()].name;
+        return format!(
+            "boundary {}: {}, moves with {leader}{}",
+            boundary.name,
+            boundary.shape.words(),
+            worn(boundary)
+        );
+    }
     let axes: Vec<_> = (AxisMotion::WORDS.iter().zip(&boundary.axes).zip(0..))
         .filter_map(|((axis, motion), index)| {
             Some(format!("{axis} {}", motion.words(if index < 3 { "m/s" } else { "rad/s" })?))
@@ -326,8 +339,12 @@ fn boundary(boundary: &Boundary) -> String {
         0 => axes.join(", "),
         nodes => format!("its {nodes} nodes driven"),
     };
-    let worn: String = boundary.wear.iter().map(|model| format!(", worn by {}", model.name())).collect();
-    format!("boundary {}: {}, {motion}{worn}", boundary.name, boundary.shape.words())
+    format!("boundary {}: {}, {motion}{}", boundary.name, boundary.shape.words(), worn(boundary))
+}
+
+/// By what a boundary is worn.
+fn worn(boundary: &Boundary) -> String {
+    boundary.wear.iter().map(|model| format!(", worn by {}", model.name())).collect()
 }
 
 /// The time step, the stable one and what limits it.

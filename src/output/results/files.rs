@@ -7,10 +7,11 @@ use crate::base::files;
 use crate::engine::simulation::{Description, Simulation};
 use crate::engine::state::snapshot::SnapshotError;
 use crate::engine::state::{State, StateFault};
-use crate::scene::Scene;
+use crate::scene::packing::made::Packed;
+use crate::scene::{Packings, Scene};
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use xxhash_rust::xxh3::xxh3_64;
@@ -177,7 +178,7 @@ pub(crate) fn is_checkpoint(beginning: &[u8]) -> bool {
 }
 
 /// What a checkpoint begins with; the number is that of its format.
-const HEAD: &str = "cograin checkpoint 1\n";
+const HEAD: &str = "cograin checkpoint 2\n";
 
 /// What every checkpoint begins with, whatever its format.
 const KIND: &[u8] = b"cograin checkpoint ";
@@ -194,7 +195,7 @@ pub struct Checkpoint {
 }
 
 /// Writes a state to a file that is whole at any time: a line that says what it is, the scene as a line of JSON after its
-/// checksum, the state.
+/// checksum, random packings, the state.
 pub fn write_checkpoint(path: &Path, state: &State, scene: &Scene, scene_name: &str) -> Result<(), OutputError> {
     write_run_checkpoint(path, state, (scene, scene_name), None)
 }
@@ -213,9 +214,16 @@ pub(crate) fn write_run_checkpoint(
     write_whole_by(path, Durability::Machine, |file| {
         let mut buffered = BufWriter::new(file);
         writeln!(buffered, "{HEAD}{checksum:016x} {description}")?;
+        Packed::write(scene, &mut buffered)?;
         state.write_to(scene.fingerprint, &mut buffered)?;
         buffered.flush()
     })
+}
+
+/// The scene that a line describes, behind its checksum.
+fn described(line: &[u8]) -> Option<Description> {
+    let (sum, text) = std::str::from_utf8(line).ok()?.split_once(' ')?;
+    (u64::from_str_radix(sum, 16) == Ok(xxh3_64(text.as_bytes()))).then(|| serde_json::from_str(text).ok())?
 }
 
 impl Checkpoint {
@@ -231,14 +239,30 @@ impl Checkpoint {
             });
         };
         let line = rest.split(|byte| *byte == b'\n').next().unwrap_or_default();
-        let text = std::str::from_utf8(line).ok().and_then(|line| line.split_once(' '));
-        let whole = text.filter(|(sum, text)| u64::from_str_radix(sum, 16) == Ok(xxh3_64(text.as_bytes())));
-        let scene = whole.and_then(|(_, text)| serde_json::from_str(text).ok());
-        let Some(scene) = scene else {
-            return Err(ResumeError::Snapshot { path: at, source: SnapshotError::Damaged });
-        };
-        let bytes = rest.get(line.len() + 1..).unwrap_or_default().to_vec();
+        let damaged = || ResumeError::Snapshot { path: at.clone(), source: SnapshotError::Damaged };
+        let scene = described(line).ok_or_else(damaged)?;
+        let packings = scene.packings.iter().map(Packed::bytes).fold(0, u64::saturating_add);
+        let from = usize::try_from(packings).ok().and_then(|length| length.checked_add(line.len() + 1));
+        let bytes = from.and_then(|from| rest.get(from..)).ok_or_else(damaged)?.to_vec();
         Ok(Self { path: at, scene, bytes })
+    }
+
+    /// The random packings of the scene of a checkpoint; none where it cannot be read, which is told where it is read as a whole.
+    pub fn packings(path: &Path) -> Packings {
+        let read = || -> io::Result<Packings> {
+            let (mut file, mut line) = (BufReader::new(files::open(path)?), Vec::new());
+            // A file that is no checkpoint may have no end of a line.
+            let mut beginning = Vec::new();
+            file.by_ref().take(HEAD.len() as u64).read_to_end(&mut beginning)?;
+            if beginning != HEAD.as_bytes() {
+                return Ok(Packings::default());
+            }
+            file.read_until(b'\n', &mut line)?;
+            let told =
+                described(line.strip_suffix(b"\n").unwrap_or(&line)).map_or_else(Vec::new, |scene| scene.packings);
+            Packings::read(&told, file)
+        };
+        read().unwrap_or_default()
     }
 
     /// The state, if it is of this very scene.

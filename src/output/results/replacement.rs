@@ -255,7 +255,7 @@ mod tests {
 
     #[test]
     fn what_stands_is_finished_wherever_it_was_broken_off() {
-        let (old, new, checkpoint) = ("time,old\n", "time,new\n", "cograin checkpoint 1\nnew");
+        let (old, new, checkpoint) = ("time,old\n", "time,new\n", "cograin checkpoint 2\nnew");
         let list = format!("{}<DataSet timestep=\"0.0\" part=\"0\" file=\"particles_000007.vtu\"/>", collection::HEAD);
         let expected = [
             ("checkpoint.cograin", checkpoint),
@@ -305,7 +305,7 @@ mod tests {
 
     #[test]
     fn what_no_run_has_made_is_neither_followed_nor_removed_nor_overwritten() {
-        let checkpoint = "cograin checkpoint 1\n";
+        let checkpoint = "cograin checkpoint 2\n";
         let cases: [(&[(&str, &str)], &str); 3] = [
             (&[("history.csv", "time,a\n"), (".cograin-replacing/notes", "x")], "expected the first files of a run"),
             (&[("history.csv", "mine"), (".cograin-moving/history.csv", "time,a\n")], "expected no file where"),

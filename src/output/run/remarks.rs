@@ -150,8 +150,9 @@ fn missed_by_cell(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let served = (0..6).filter(|&component| matches!(cell.motion[component], CellMotion::Servo(_)));
     let largest = largest(moved.mean_stress);
     let told = served.filter_map(|component| {
-        let (found, target) = (moved.mean_stress[component], 0.5 * (moved.start[component] + moved.end[component]));
-        let name = STRAINS[component];
+        let found = cell.motion[component].served(component, &moved.mean_stress);
+        let target = 0.5 * (moved.start[component] + moved.end[component]);
+        let name = if cell.motion[component].serves_mean() { "the mean stress" } else { STRAINS[component] };
         (state.clock.steps > 0 && misses(found, target, largest))
             .then(|| format!("[cell] servo: {name} has {found:.4e} Pa in the last interval, to be {target:.4e} Pa"))
     });

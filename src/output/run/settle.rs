@@ -8,7 +8,7 @@ use crate::engine::statics::{Factorise, Motionless, come_to_rest};
 use crate::laws::contact::{Properties, property};
 use crate::output::results::files::{Checkpoint, EarlierFile, claim_unsettled, is_same, write_checkpoint};
 use crate::output::results::{Failure, OutputError, Refusal};
-use crate::scene::{AxisMotion, Boundary, ContactLaw, Scene, SceneDraft};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Scene, SceneDraft};
 use std::collections::VecDeque;
 use std::ffi::OsString;
 use std::fs;
@@ -449,6 +449,11 @@ fn standing_still(scene: &Scene) -> Arc<Scene> {
     for boundary in &mut still.boundaries {
         for axis in boundary.axes.iter_mut().filter(|axis| !axis.is_free() && axis.servo().is_none()) {
             *axis = AxisMotion::Fixed;
+        }
+    }
+    for motion in still.cell.iter_mut().flat_map(|cell| &mut cell.motion) {
+        if let CellMotion::Prescribed(_) = motion {
+            *motion = CellMotion::Fixed;
         }
     }
     for insertion in &mut still.insertions {

@@ -7,7 +7,7 @@ mod tables;
 use crate::base::document::{self, Document, Faults, Mistake, SceneError, SceneErrors, Setting};
 use crate::base::files;
 use crate::scene::file::parameters::{CENTRAL_DERIVATIVES, SAFETY, THREADS, TIME_STEP};
-use crate::scene::packing::PackingProgress;
+use crate::scene::packing::{PackingProgress, Packings};
 use crate::scene::{Models, Scene, Source};
 use check::raw_tables;
 use std::collections::BTreeMap;
@@ -39,13 +39,25 @@ impl Models {
         settings: &[Setting],
         tell: &mut dyn FnMut(PackingProgress),
     ) -> Result<(Scene, Source), SceneErrors> {
+        self.read_with(path, settings, &Packings::default(), tell)
+    }
+
+    /// The same, with random packings that were made before: what needs one of them does not make it again.
+    pub fn read_with(
+        &self,
+        path: &Path,
+        settings: &[Setting],
+        made: &Packings,
+        tell: &mut dyn FnMut(PackingProgress),
+    ) -> Result<(Scene, Source), SceneErrors> {
         let name = path.file_name().map_or_else(|| path.to_string_lossy(), |name| name.to_string_lossy()).into_owned();
         let text = bytes(path).map_err(|reason| unreadable(&name, reason))?;
         let text = String::from_utf8(text).map_err(|_| unreadable(&name, "it is not UTF-8 text".to_owned()))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut source = Source { name, text, files: BTreeMap::new() };
         let changes = document::apply(&mut source.text, settings)?;
-        let scene = self.with_files(&mut source, folder, tell).map_err(|errors| changes.told(&source.name, errors))?;
+        let scene =
+            self.with_files(&mut source, folder, (made, tell)).map_err(|errors| changes.told(&source.name, errors))?;
         Ok((scene, source))
     }
 
@@ -54,7 +66,7 @@ impl Models {
         &self,
         source: &mut Source,
         folder: &Path,
-        tell: &mut dyn FnMut(PackingProgress),
+        made: (&Packings, &mut dyn FnMut(PackingProgress)),
     ) -> Result<Scene, SceneErrors> {
         let document = Document::parse(&source.name, &source.text)?;
         let mut faults = Faults::new(&document);
@@ -66,7 +78,7 @@ impl Models {
                 Err(reason) => faults.add(&table, &key, Mistake::Unreadable { file, reason }),
             }
         }
-        check::scene(source, &document, faults, self, tell)
+        check::scene(source, &document, faults, self, made)
     }
 
     /// Reads a scene from its source alone, with other values of some keys.
@@ -84,7 +96,7 @@ impl Models {
                 faults.add(&table, &key, Mistake::Unreadable { file, reason });
             }
         }
-        check::scene(source, &document, faults, self, &mut |_| {})
+        check::scene(source, &document, faults, self, (&Packings::default(), &mut |_| {}))
     }
 
     /// Reads a scene from its source alone, with these values of some of its parameters.

@@ -4,6 +4,7 @@ mod dense;
 pub(crate) mod generator;
 mod keys;
 mod lattice;
+pub(crate) mod made;
 pub(crate) mod overlaps;
 mod radii;
 mod random;
@@ -12,6 +13,7 @@ mod relaxation;
 
 pub(crate) use keys::{LatticeTable, PackingTable};
 pub(crate) use lattice::lattice;
+pub use made::Packings;
 pub(crate) use random::packing;
 
 use crate::base::memory;

@@ -16,6 +16,7 @@
 //! of the list. Pieces that run at the same time must not write to the same body.
 
 mod deepest;
+mod held;
 mod law;
 mod lost;
 mod parting;
@@ -85,8 +86,8 @@ pub(crate) trait Bodies: Copy {
         effective
     }
 
-    /// The weight of the normal force of each entry, and its share of friction, if they are not 1.
-    fn weights(&self) -> Option<&[[f64; 2]]> {
+    /// The weight of the normal force of each entry, its share of friction and the weight of its energy, if they are not 1.
+    fn weights(&self) -> Option<&[[f64; 3]]> {
         None
     }
 
@@ -249,6 +250,7 @@ impl<B: Bodies> Batches<'_, B> {
             if !is_suppressed {
                 lanes::run(width, ScatterPhase { bodies, needs, buffer, sum });
                 if law.booked.warms() && !runs.is_empty() {
+                    self.hold(buffer);
                     for (place, &heat) in buffer.heat().iter().enumerate() {
                         bodies.warm(buffer.first[place], buffer.second[place], heat, sum);
                     }

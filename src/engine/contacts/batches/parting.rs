@@ -31,7 +31,9 @@ impl<B: Bodies> Parting<'_, '_, B> {
             let (lost, held) = parting(booked, &contact, step, spring.into(), [loads, other]);
             if booked.warms() {
                 let bodies = &self.work.bodies;
-                bodies.warm(bodies.first()[entry], bodies.second()[entry], 0.5 * booked.heat(&lost), self.sum);
+                // SAFETY: the caller's promise.
+                let heat = 0.5 * booked.heat(&lost) + unsafe { self.work.held(entry) };
+                bodies.warm(bodies.first()[entry], bodies.second()[entry], heat, self.sum);
             }
             if self.work.follows
                 && let Some(place) = self.work.law.law.history_places().impact

@@ -15,7 +15,7 @@ impl<B: Bodies> Batches<'_, B> {
                 let found = buffer.found::<f64>(place, B::FOUND);
                 self.bodies.meet::<f64, true>(&first, &second, found, B::roots(&found)).contact
             };
-            let weight = weights.and_then(|weights| weights.get(entry as usize)).map_or(1.0, |[weight, _]| *weight);
+            let weight = weights.and_then(|weights| weights.get(entry as usize)).map_or(1.0, |[weight, ..]| *weight);
             let force = Vector::from(buffer.force[place]).dot(contact.normal).max(0.0) * weight;
             let speed = [-contact.normal_velocity, contact.slip.length()];
             let lost = if self.law.booked.follows && self.law.law.is_booked() { buffer.lost(place) } else { [0.0; 2] };

@@ -472,10 +472,10 @@ impl Telling for SurfacePass {
             let (boundary, law) = (surface.list(state).boundary, surface.law_index);
             match surface.plane_list(state) {
                 Some(list) => listed::touched(&list, (state, flags), &mut |slot, overlap| {
-                    tell(SurfaceTouch { slot, boundary, law, overlap, weight: 1.0 });
+                    tell(SurfaceTouch { slot, boundary, law, overlap, weight: 1.0, nodes: &[] });
                 }),
-                None => surface.touched_at_features((state, flags), &mut |slot, overlap, weight| {
-                    tell(SurfaceTouch { slot, boundary, law, overlap, weight });
+                None => surface.touched_at_features((state, flags), |slot, overlap, weight, nodes| {
+                    tell(SurfaceTouch { slot, boundary, law, overlap, weight, nodes });
                 }),
             }
         }

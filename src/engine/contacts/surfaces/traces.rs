@@ -44,7 +44,7 @@ pub(super) struct TouchedFeatures<'a> {
     /// Normal and distance of its foot \[m\].
     pub(super) foot: &'a [Row],
     /// How often it counts; empty where each counts once.
-    pub(super) weight: &'a [[f64; 2]],
+    pub(super) weight: &'a [[f64; 3]],
     /// The particles.
     pub(super) particles: ParticleLoads<'a>,
 }
@@ -52,7 +52,7 @@ pub(super) struct TouchedFeatures<'a> {
 impl TouchedFeatures<'_> {
     /// How often a contact counts.
     fn weight(&self, contact: usize) -> f64 {
-        self.weight.get(contact).map_or(1.0, |[weight, _]| *weight)
+        self.weight.get(contact).map_or(1.0, |[weight, ..]| *weight)
     }
 }
 

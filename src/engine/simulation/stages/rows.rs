@@ -97,7 +97,7 @@ const MOTION: &[Stage] = &[
         scenes: "insertions, outlets, flow meters",
         is_needed: |it| it.flow.is_some(),
         reads: &[Motions, Boundaries],
-        writes: &[Places, Motions, Loads, Particles, Lists, Contacts, Bonds, Clumps, Cell, Books, Speed, Traces],
+        writes: &[Places, Motions, Loads, Particles, Lists, Contacts, Bonds, Clumps, Cell, Books, Speed, Heat, Traces],
         run: Simulation::exchange,
     },
     Stage {
@@ -181,7 +181,7 @@ const FORCES: &[Stage] = &[
         scenes: "bonds",
         is_needed: |it| it.acts(Source::Bonds),
         reads: &[Places, Motions],
-        writes: &[Loads, Bonds, Boundaries, Books],
+        writes: &[Loads, Bonds, Boundaries, Books, Heat],
         run: Simulation::act_by_bonds,
     },
     Stage {
@@ -237,7 +237,7 @@ const FORCES: &[Stage] = &[
         scenes: "bonds that suppress contacts",
         is_needed: |it| it.suppression.any(),
         reads: &[Places, Bonds],
-        writes: &[Contacts],
+        writes: &[Contacts, Heat],
         run: Simulation::release_contacts,
     },
     Stage {

@@ -3,6 +3,7 @@
 use crate::engine::state::{State, StateFault, demand};
 use crate::laws::bond::{self, formulation::FormulationChoice};
 use crate::scene::exchange::Amount;
+use crate::scene::packing::made::Packed;
 use crate::scene::{Boundary, Insertion, Output, Scene, SceneDraft};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write;
@@ -32,6 +33,9 @@ pub struct Description {
     course: u64,
     /// Numbers of the particles, ascending: first and count of each series.
     particles: Vec<[u32; 2]>,
+    /// Random packings, whose spheres stand between this and the state.
+    #[serde(default)]
+    pub(crate) packings: Vec<Packed>,
     /// Declared columns of the particles: names.
     columns: Vec<String>,
     /// Materials: names.
@@ -71,6 +75,7 @@ impl Description {
             inputs: None,
             course: course(scene),
             particles,
+            packings: Packed::of(scene),
             columns: scene.columns.iter().map(|start| start.column.name.to_owned()).collect(),
             materials: scene.materials.iter().map(|material| material.name.clone()).collect(),
             insertions: scene.insertions.iter().map(|it| (it.name.clone(), amount(it))).collect(),
@@ -275,6 +280,7 @@ fn course(scene: &Scene) -> u64 {
         particles: Vec::new(),
         fingerprint: 0,
         parts: Vec::new(),
+        packed: Vec::new(),
         unread: Vec::new(),
         ..SceneDraft::clone(scene)
     };

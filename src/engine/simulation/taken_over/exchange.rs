@@ -24,19 +24,11 @@ pub(super) fn put_newcomers(
     for there in own as u32..other.slot.len() as u32 {
         let loose = other.slot_of(there).filter(|&slot| reached.clump(slot).is_none());
         let newcomer = loose.and_then(|slot| {
-            let (position, velocity) = (other.position[slot], other.velocity[slot]);
-            let material = from.material_here(scene, other.material[slot])?;
-            let number = other.number_of_inserted(there)?;
-            let fits = number > last && flow::is_made(scene, position[3], velocity[3], material);
-            let inertia = ParticleShape::Sphere.inertia(velocity[3], position[3]);
-            (fits && state.exchange.is_some()).then_some(InsertedParticle {
-                position,
-                velocity,
-                inertia,
-                material,
-                number,
-                declared: &declared,
-            })
+            let came = newcomer(scene, reached, (from, &declared), (there, slot))?;
+            let (radius, mass) = (came.position[3], came.velocity[3]);
+            let fits = came.number > last && flow::is_made(scene, radius, mass, came.material);
+            let inertia = ParticleShape::Sphere.inertia(mass, radius);
+            (fits && state.exchange.is_some()).then_some(InsertedParticle { inertia, ..came })
         });
         // No particle has an orientation yet.
         here[there as usize - own] = newcomer.map(|newcomer| state.add_particle(&newcomer, 0, false));
@@ -66,6 +58,24 @@ pub(super) fn put_newcomers(
     })
 }
 
+/// A particle that came in the other scene, with its index and slot there, as one that comes here, if this scene has its material.
+fn newcomer<'a>(
+    scene: &Scene,
+    reached: &State,
+    (from, declared): (&Description, &'a [f64]),
+    (there, slot): (u32, usize),
+) -> Option<InsertedParticle<'a>> {
+    let other = &reached.particles;
+    Some(InsertedParticle {
+        position: other.position[slot],
+        velocity: other.velocity[slot],
+        inertia: other.angular_velocity[slot][3],
+        material: from.material_here(scene, other.material[slot])?,
+        number: other.number_of_inserted(there)?,
+        declared,
+    })
+}
+
 /// Adds the clumps that came in the other scene, whose own particles are so many, and that an insertion of this one could let come. Notes
 /// the indices of their spheres.
 fn put_clumps(
@@ -83,17 +93,7 @@ fn put_clumps(
         if !fits || !clumps::is_made(scene, reached, clump, |material| from.material_here(scene, material)) {
             continue;
         }
-        let sphere = |&there: &u32| {
-            let slot = other.slot_of(there)?;
-            Some(InsertedParticle {
-                position: other.position[slot],
-                velocity: other.velocity[slot],
-                inertia: other.angular_velocity[slot][3],
-                material: from.material_here(scene, other.material[slot])?,
-                number: other.number_of_inserted(there)?,
-                declared,
-            })
-        };
+        let sphere = |&there: &u32| newcomer(scene, reached, (from, declared), (there, other.slot_of(there)?));
         let Some(spheres) = there.iter().map(sphere).collect::<Option<Vec<_>>>() else { continue };
         state.add_clump(&clumps.rows(clump), number, &spheres, false);
         for (&there, &index) in there.iter().zip(state.clumps.spheres_of(state.clumps.len() - 1)) {

@@ -158,13 +158,16 @@ fn put_clumps(state: &mut State, reached: &State, numbers: &Numbers) {
 fn put_boundaries(scene: &Scene, state: &mut State, reached: &State, from: &Description) {
     let time = state.clock.time;
     for (boundary, moved) in scene.boundaries.iter().zip(&mut state.boundaries) {
-        let Some(other) = from.boundary(boundary).and_then(|index| reached.boundaries.get(index)) else {
+        // The parts of a machine stand where that with its motion does.
+        let leader = boundary.moves_with.map_or(boundary, |leader| &scene.boundaries[leader.index()]);
+        let Some(other) = from.boundary(leader).and_then(|index| reached.boundaries.get(index)) else {
             placing::begin_prescribed(boundary, moved, time);
             continue;
         };
         moved.displacement = other.displacement;
-        if scene.cell.is_some() {
-            moved.brought_back = other.brought_back;
+        let own = from.boundary(boundary).and_then(|index| reached.boundaries.get(index));
+        if let Some(own) = own.filter(|_| scene.cell.is_some()) {
+            moved.brought_back = own.brought_back;
         }
         moved.rotation = other.rotation;
         moved.orientation = other.orientation;

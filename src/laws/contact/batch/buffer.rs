@@ -518,6 +518,11 @@ impl Buffer {
         &self.columns[at::SPRING[0]][..self.ready]
     }
 
+    /// The same, to be changed.
+    pub(crate) fn heat_mut(&mut self) -> &mut [f64] {
+        &mut self.columns[at::SPRING[0]][..self.ready]
+    }
+
     /// Overlaps and effective radii of a register's worth of contacts \[m\].
     ///
     /// # Safety

@@ -114,7 +114,7 @@ pub(crate) unsafe fn book<N: Lane>(stage: &mut Stage, place: usize, seen: &Seen<
         stage.remember(true, stage.history.other_loads, loads[1], place);
         if let Some(weights) = stage.weights {
             let (base, entries) = (weights.as_ptr().cast::<f64>(), stage.buffer.entry.as_ptr().add(place));
-            weigh(&mut lost, [N::gather(base, entries, 2), N::gather(base.add(1), entries, 2)]);
+            weigh(&mut lost, [N::gather(base, entries, 3), N::gather(base.add(1), entries, 3)]);
         }
         if stage.buffer.ready < place + N::WIDTH {
             // The entries that fill the last register are not counted.

@@ -30,7 +30,7 @@ pub(crate) struct Stage<'a> {
     /// How dashpots begin.
     pub(crate) onset: Onset,
     /// How often the normal force of each entry counts, and its share of friction, where it is not 1.
-    pub(crate) weights: Option<&'a [[f64; 2]]>,
+    pub(crate) weights: Option<&'a [[f64; 3]]>,
     /// What a book of losses has to know of the law.
     pub(crate) booked: &'a Booked,
     /// The batch.

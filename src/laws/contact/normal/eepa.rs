@@ -354,11 +354,17 @@ impl NormalForm for Eepa {
     fn elastic_energy(&self, contact: &Contact, _offset: f64, [plastic, ..]: Row) -> f64 {
         // ∫ k₂ (xⁿ − δ_pⁿ) dx from δ_p to δ: what unloading gives back
         let unloading = self.loading() * self.unloading_ratio;
+        let raised = |overlap: f64| self.raised(overlap, contact.radius);
         let plastic = match self.fixed == 1.0 {
             true => plastic * (1.0 - 1.0 / self.unloading_ratio),
-            false => plastic,
+            false => {
+                // On the adhesion branch the stiff line through the present force is the one on which the contact would reload.
+                let force = self.branch(contact, self.loading(), [plastic, contact.overlap]).force;
+                let radii = [contact.radius, 1.0 / contact.radius];
+                let reloading = self.lowered(raised(contact.overlap) - force / unloading, radii);
+                if reloading < plastic { reloading } else { plastic }
+            }
         };
-        let raised = |overlap: f64| self.raised(overlap, contact.radius);
         let whole = |overlap: f64| raised(overlap) * overlap / (self.overlap_exponent + 1.0);
         let (over, under) = (whole(contact.overlap) - whole(plastic), raised(plastic));
         unloading * (over - under * (contact.overlap - plastic))

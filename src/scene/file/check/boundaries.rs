@@ -2,6 +2,7 @@
 
 use super::body;
 use super::contacts::material_index;
+use super::following;
 use super::heat;
 use super::motion;
 use super::particles::ReadParticles;
@@ -33,7 +34,10 @@ pub(super) fn boundaries(
         };
         owners.claim(shape.members(), &table, born, faults);
         let reference = boundary.reference.map_or_else(|| centre(&*shape, born), |reference| reference.0);
-        let axes = motion::axes(&boundary.motion, source, &table, faults);
+        let axes = match &boundary.motion {
+            Some(motion) => motion::axes(motion, source, &table, faults),
+            None => [const { AxisMotion::Fixed }; 6],
+        };
         motion::reference(&axes, boundary.reference.is_some(), &table, faults);
         let driven = boundary.nodes != NodeMotion::Rigid;
         if boundary.input.is_some() && !driven && !axes.iter().any(|axis| axis.takes_place()) {
@@ -47,11 +51,23 @@ pub(super) fn boundaries(
             if motion::turns_about_its_centre(&axes) && shape.members().is_empty() { body.centre } else { reference };
         let (nodes, outside, wear) = (boundary.nodes, boundary.outside, boundary.wear.clone());
         let temperature = heat::temperature(boundary, &table, (materials, born, columns), faults);
-        let boundary =
-            Boundary { name: name.clone(), shape, axes, nodes, input, reference, body, outside, temperature, wear };
-        alone(&boundary, faults);
-        boundaries.push(boundary);
+        let (name, moves_with) = (name.clone(), None);
+        boundaries.push(Boundary {
+            name,
+            shape,
+            axes,
+            moves_with,
+            nodes,
+            input,
+            reference,
+            body,
+            outside,
+            temperature,
+            wear,
+        });
     }
+    following::resolve(&written.boundaries, &mut boundaries, faults);
+    boundaries.iter().for_each(|boundary| alone(boundary, faults));
     boundaries
 }
 
@@ -60,6 +76,7 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
     let mut owner: Vec<Option<&str>> = vec![None; draft.particles.len()];
     for boundary in &draft.boundaries {
         alone(boundary, faults);
+        following::check(boundary, &draft.boundaries, faults);
         let mut taken = boundary.shape.members().iter().filter_map(|&member| {
             owner[member as usize].replace(&boundary.name).map(|other| (member, other.to_owned()))
         });
@@ -74,7 +91,8 @@ pub(super) fn check(draft: &SceneDraft, faults: &mut Faults) {
 /// Reports what a boundary cannot be or do, whatever stands beside it.
 fn alone(boundary: &Boundary, faults: &mut Faults) {
     let (table, shape, axes) = (format!("boundary.{}", boundary.name), &*boundary.shape, &boundary.axes);
-    motion::check(axes, shape, &table, faults);
+    let key = if boundary.moves_with.is_some() { "moves_with" } else { "motion" };
+    motion::check(axes, shape, (&table, key), faults);
     nodes(boundary.nodes, axes, shape, &table, faults);
     let driven = boundary.nodes != NodeMotion::Rigid;
     if boundary.input == InputCourse::Quadratic && (driven || axes[3..].iter().any(AxisMotion::takes_place)) {

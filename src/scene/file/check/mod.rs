@@ -12,6 +12,7 @@ mod damping;
 mod exchange;
 mod finding;
 mod fluid;
+mod following;
 mod heat;
 mod motion;
 mod named_tables;
@@ -29,7 +30,7 @@ use crate::base::document::{Document, Faults, Mistake, SceneErrors};
 use crate::laws::region;
 use crate::laws::surface::Files;
 use crate::scene::file::parameters;
-use crate::scene::packing::PackingProgress;
+use crate::scene::packing::{PackingProgress, Packings};
 use crate::scene::{
     Accuracy, Cell, Derived, Grid, Models, Output, Probe, Region, Run, Scene, SceneDraft, Source, Step,
 };
@@ -44,7 +45,7 @@ pub(super) fn scene(
     document: &Document,
     mut faults: Faults,
     models: &Models,
-    tell: &mut dyn FnMut(PackingProgress),
+    (made, tell): (&Packings, &mut dyn FnMut(PackingProgress)),
 ) -> Result<Scene, SceneErrors> {
     let written = RawTables::read(document, models, &mut faults);
     faults.so_far()?;
@@ -55,7 +56,7 @@ pub(super) fn scene(
     let pairs = contacts::pairs(&written, &materials, &mut faults);
     let laws = contacts::laws(&written.contacts, &materials, run.scheme, &mut faults);
     let asked = columns::asked(document, &written.columns);
-    let born = particles::particles(&written, source, (&materials, &asked), &mut faults, tell);
+    let born = particles::particles(&written, source, (&materials, &asked), &mut faults, (made, tell));
     faults.so_far()?;
     let columns = columns::starts(&written, &asked, &born, &mut faults);
     faults.so_far()?;
@@ -105,6 +106,7 @@ pub(super) fn scene(
         parameters: Vec::new(),
         fingerprint: source.fingerprint(),
         parts: source.parts(),
+        packed: born.packed,
         unread: faults.all_unread().to_vec(),
     };
     draft.parameters = parameters::of_scene(&draft, document);
@@ -135,6 +137,8 @@ impl SceneDraft {
     pub fn build(mut self) -> Result<Scene, SceneErrors> {
         let document = Document::parse("", "")?;
         let mut faults = Faults::new(&document);
+        // Who built it may have moved the particles.
+        self.packed.clear();
         values::check(&self, &mut faults);
         faults.so_far()?;
         if let Some((table, key, mistake)) = clump::faults(&self) {

@@ -28,14 +28,11 @@ pub(super) fn axes(motion: &Keys, source: &Source, table: &str, faults: &mut Fau
 }
 
 /// Reports what the axes of a boundary cannot do together, or not with its shape.
-pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, table: &str, faults: &mut Faults) {
+pub(super) fn check(axes: &[AxisMotion; 6], shape: &dyn Surface, (table, key): (&str, &str), faults: &mut Faults) {
     if let Some(axis) = (3..6).find(|&axis| !axes[axis].is_fixed() && !shape.turns()) {
         let found = format!("{} of a {}", AxisMotion::WORDS[axis], shape.key());
-        faults.add(
-            table,
-            "motion",
-            Mistake::Unexpected { found, expected: "rotations of a shape that turns".to_owned() },
-        );
+        let expected = "rotations of a shape that turns".to_owned();
+        faults.add(table, key, Mistake::Unexpected { found, expected });
         return;
     }
     if let Some(axis) = (3..6).find(|&axis| axes[axis].servo().is_some()) {

@@ -13,7 +13,7 @@ use crate::scene::Source;
 use crate::scene::cell::fault_of;
 use crate::scene::file::tables::ParticlesTable;
 use crate::scene::import::{FileBox, REPORTED};
-use crate::scene::packing::PackingProgress;
+use crate::scene::packing::{PackingProgress, Packings};
 use crate::scene::{Clump, ClumpShape, Particle, Run, clump};
 use std::collections::BTreeMap;
 
@@ -32,6 +32,8 @@ pub(super) struct ReadParticles {
     pub(super) sets: Vec<String>,
     /// Columns of each set that damping or the scene asks for.
     pub(super) columns: Vec<BTreeMap<String, Vec<f64>>>,
+    /// Sets of spheres that a random packing made, and what decided it.
+    pub(super) packed: Vec<(SetIndex, u64)>,
     /// Boxes that files say: table, file, box.
     pub(super) boxes: Vec<(String, String, FileBox)>,
 }
@@ -42,7 +44,7 @@ pub(super) fn particles(
     source: &Source,
     (materials, asked): (&[Material], &[&'static Column]),
     faults: &mut Faults,
-    tell: &mut dyn FnMut(PackingProgress),
+    (made, tell): (&Packings, &mut dyn FnMut(PackingProgress)),
 ) -> ReadParticles {
     let extra: Vec<String> = written
         .damping
@@ -83,6 +85,7 @@ pub(super) fn particles(
             shapes: &born.shapes,
             keys: &written.clumps,
             columns: asked,
+            made,
         };
         let extra: Vec<String> = extra.iter().cloned().chain(reader.names_in_files()).collect();
         let (list, clumps, place, columns) = reader.read(source, &extra, faults, tell);
@@ -92,6 +95,7 @@ pub(super) fn particles(
         born.clumps.extend(clumps);
         newborn.extend((0..).zip(list));
         born.sets.push(name.clone());
+        born.packed.extend(reader.packed().map(|made_of| (set, made_of)));
         born.columns.push(columns);
         places.push(place);
     }

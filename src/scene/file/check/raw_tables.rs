@@ -465,8 +465,8 @@ fn model<F>(
     };
     let Some(row) = known.iter().find(|row| row.name() == name) else {
         let known = known.iter().map(|row| row.name().to_owned()).collect();
-        let table = format!("{path}.{name}");
-        faults.add(&table, "", Mistake::UnknownModel { found: name.clone(), kind, known });
+        let unknown = || Mistake::UnknownModel { found: name.clone(), kind, known };
+        faults.add(&format!("{path}.{name}"), "", messages::absent(name).unwrap_or_else(unknown));
         return None;
     };
     row.read(document, &path, faults)

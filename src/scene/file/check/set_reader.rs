@@ -14,7 +14,7 @@ use crate::scene::Source;
 use crate::scene::clump::ClumpKeys;
 use crate::scene::file::tables::{ListEntry, ParticlesTable, Triple};
 use crate::scene::import::{self, Bodies, REPORTED, Request, Rows};
-use crate::scene::packing::{self, PackingProgress};
+use crate::scene::packing::{self, PackingProgress, Packings, made};
 use crate::scene::{Clump, ClumpShape, Particle, ParticleShape};
 use std::collections::BTreeMap;
 
@@ -50,6 +50,8 @@ pub(super) struct SetReader<'a> {
     pub(super) keys: &'a Named<ClumpKeys>,
     /// Columns that the scene asks for.
     pub(super) columns: &'a [&'static Column],
+    /// Random packings that were made before.
+    pub(super) made: &'a Packings,
 }
 
 /// The particles of a set, the clumps that they are spheres of, their place, and the columns that damping or the scene asks for.
@@ -78,6 +80,9 @@ impl SetReader<'_> {
         if let Some(file) = file {
             return self.filed(file, source, extra, faults);
         }
+        if let Some(spheres) = self.packed().and_then(|made_of| self.made.get(made_of)) {
+            return (self.generated(spheres, faults), Vec::new(), Place::Nowhere, BTreeMap::new());
+        }
         let spheres = match (lattice, packing) {
             (Some(lattice), _) => packing::lattice(lattice),
             (_, Some(packing)) => packing::packing(packing, self.cell, (self.seed, &self.table), tell),
@@ -90,6 +95,12 @@ impl SetReader<'_> {
                 nobody
             }
         }
+    }
+
+    /// The digest of what decides its random packing, if it is one of spheres.
+    pub(super) fn packed(&self) -> Option<u64> {
+        let packing = self.written.packing.as_ref().filter(|_| self.written.clump.is_none())?;
+        Some(made::digest(packing, self.cell, self.seed, &self.table))
     }
 
     /// Whether the set says once where its particles come from, and nothing that belongs to another origin.

@@ -15,8 +15,9 @@ keys! {
         /// Material of the surface; a group has that of its particles.
         pub(in crate::scene::file) material: Option<String> = "required of a surface",
         /// `"fixed"`, or a table of axes.
-        #[serde(default)]
-        pub(in crate::scene::file) motion: motion::Keys = "`\"fixed\"`",
+        pub(in crate::scene::file) motion: Option<motion::Keys> = "`\"fixed\"`",
+        /// Name of a boundary that is prescribed or driven, of whose machine this one is a part, see below.
+        pub(in crate::scene::file) moves_with: Option<String> = "none",
         /// `"driven"`: the outside moves [each node of a mesh](#meshes-that-deform).
         #[serde(default)]
         pub(in crate::scene::file) nodes: NodeMotion = "`\"rigid\"`",

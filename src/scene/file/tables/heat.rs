@@ -68,7 +68,8 @@ keys! {
         /// Whether heat flows while nothing moves.
         #[serde(default)]
         frozen: bool = "`false`",
-        /// Losses that warm both bodies of a contact: `normal_damping`, `tangential_damping`, `sliding`, `rolling` ([heat.md](heat.md)).
+        /// Losses that warm both bodies of a contact or bond: `normal_damping`, `tangential_damping`, `sliding`, `rolling`, `plastic`,
+        /// `bond_damping`, `bond_release` ([heat.md](heat.md)).
         #[serde(default)]
         from_losses: Vec<WarmingLoss> = "none",
     }
@@ -79,13 +80,17 @@ impl HeatTable {
     pub(in crate::scene::file) fn settings(&self) -> HeatSettings {
         let mut settings = HeatSettings { frozen: self.frozen, ..HeatSettings::default() };
         for loss in &self.from_losses {
-            settings.from_losses[loss.kind() as usize] = true;
+            match loss {
+                WarmingLoss::BondDamping => settings.from_bonds.damping = true,
+                WarmingLoss::BondRelease => settings.from_bonds.release = true,
+                loss => loss.kind().into_iter().for_each(|kind| settings.from_losses[kind as usize] = true),
+            }
         }
         settings
     }
 }
 
-/// A loss of contacts that is heat at once.
+/// A loss that is heat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum WarmingLoss {
@@ -95,18 +100,26 @@ enum WarmingLoss {
     TangentialDamping,
     /// Friction at its limit.
     Sliding,
-    /// Work against rolling torque.
+    /// Work against rolling torque that its spring does not hold.
     Rolling,
+    /// Work against plastic normal forces that they do not hold.
+    Plastic,
+    /// Damping and relaxation of bonds.
+    BondDamping,
+    /// What bonds hold that break.
+    BondRelease,
 }
 
 impl WarmingLoss {
-    /// Its kind.
-    fn kind(self) -> LossKind {
+    /// Its kind among those of contacts.
+    fn kind(self) -> Option<LossKind> {
         match self {
-            Self::NormalDamping => LossKind::Normal,
-            Self::TangentialDamping => LossKind::Tangential,
-            Self::Sliding => LossKind::Sliding,
-            Self::Rolling => LossKind::Rolling,
+            Self::NormalDamping => Some(LossKind::Normal),
+            Self::TangentialDamping => Some(LossKind::Tangential),
+            Self::Sliding => Some(LossKind::Sliding),
+            Self::Rolling => Some(LossKind::Rolling),
+            Self::Plastic => Some(LossKind::Other),
+            Self::BondDamping | Self::BondRelease => None,
         }
     }
 }

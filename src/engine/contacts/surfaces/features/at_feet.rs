@@ -22,8 +22,8 @@ pub(super) struct AtFeet<'a> {
     pub(super) number: &'a [u32],
     /// Normals and distances.
     pub(super) foot: &'a [Row],
-    /// How often the normal force counts, and the share of friction; empty where all count once.
-    pub(super) weight: &'a [[f64; 2]],
+    /// How often the normal force counts, the share of friction, and how often the energy counts; empty where all count once.
+    pub(super) weight: &'a [[f64; 3]],
     /// How the surface moves at each, where nodes move one by one.
     pub(super) held: Option<HeldColumns<'a>>,
     /// The surface's material.
@@ -83,7 +83,7 @@ impl Bodies for AtFeet<'_> {
         self.at.meet(&sphere, position, motion, moving, N::zero())
     }
 
-    fn weights(&self) -> Option<&[[f64; 2]]> {
+    fn weights(&self) -> Option<&[[f64; 3]]> {
         (!self.weight.is_empty()).then_some(self.weight)
     }
 
@@ -104,7 +104,7 @@ impl Bodies for AtFeet<'_> {
     fn conduct(&self, [first, second]: [&[u32]; 2], conductance: &[f64], load: &mut Load) {
         for ((&slot, &number), &conductance) in first.iter().zip(second).zip(conductance) {
             let number = number as usize;
-            let conductance = self.weight.get(number).map_or(conductance, |[weight, _]| conductance * weight);
+            let conductance = self.weight.get(number).map_or(conductance, |[.., weight]| conductance * weight);
             // SAFETY: as above.
             unsafe {
                 let level = self.held.and_then(|held| held.level(number)).unwrap_or(self.level);
@@ -123,7 +123,7 @@ impl Bodies for AtFeet<'_> {
             let (slot, number) = (first[place] as usize, second[place] as usize);
             let normal = Vector::from(self.foot[number]);
             let mut loads = [force[place], couple[place], rolling[place]];
-            if let Some(&[weight, share]) = self.weight.get(number) {
+            if let Some(&[weight, share, _]) = self.weight.get(number) {
                 let whole = Vector::from(force[place]);
                 let along = normal * whole.dot(normal);
                 loads[0] = (along * weight + (whole - along) * share).row_with(0.0);

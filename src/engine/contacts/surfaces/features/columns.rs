@@ -31,8 +31,8 @@ pub(in crate::engine::contacts::surfaces) struct FeatureContacts {
     pub(super) number: Vec<u32>,
     /// Normal and distance of its foot \[m\].
     pub(super) foot: Vec<Row>,
-    /// How often its normal force counts, and its share of friction; empty where each counts once.
-    pub(super) weight: Vec<[f64; 2]>,
+    /// How often its normal force counts, its share of friction, and how often its energy counts; empty where each counts once.
+    pub(super) weight: Vec<[f64; 3]>,
     /// Particles (slots) that may just have come through the surface.
     pub(super) deep: Vec<u32>,
     /// The saddles, each with its particle.
@@ -68,7 +68,7 @@ impl FeatureContacts {
     pub(super) fn push(&mut self, slot: u32, foot: &Foot, normal: Vector, share: f64) {
         let weight = foot.weight * foot.slope;
         if weight != 1.0 || share != 1.0 || !self.weight.is_empty() {
-            self.weigh([weight, share]);
+            self.weigh([weight, share, foot.weight]);
         }
         self.particle.push(slot);
         self.feature.push(foot.feature);
@@ -78,7 +78,7 @@ impl FeatureContacts {
     /// Adds the first of the contacts that were found of particles together, but for what is remembered of them. Each counts once.
     pub(super) fn push_together(&mut self, found: &Together, count: usize) {
         if !self.weight.is_empty() {
-            self.weight.resize(self.particle.len() + count, [1.0; 2]);
+            self.weight.resize(self.particle.len() + count, [1.0; 3]);
         }
         self.particle.extend_from_slice(&found.slot[..count]);
         self.feature.extend_from_slice(&found.spheres.feature[..count]);
@@ -87,14 +87,14 @@ impl FeatureContacts {
 
     /// Gives weights to the contact that is added next.
     #[inline(never)]
-    fn weigh(&mut self, weights: [f64; 2]) {
-        self.weight.resize(self.particle.len(), [1.0; 2]);
+    fn weigh(&mut self, weights: [f64; 3]) {
+        self.weight.resize(self.particle.len(), [1.0; 3]);
         self.weight.push(weights);
     }
 
     /// How often the normal force of a contact counts.
     pub(super) fn weight(&self, contact: usize) -> f64 {
-        self.weight.get(contact).map_or(1.0, |[weight, _]| *weight)
+        self.weight.get(contact).map_or(1.0, |[weight, ..]| *weight)
     }
 
     /// Ends the search: all contacts have their numbers. Looks whether they are those of the last evaluation, which stood
@@ -139,9 +139,9 @@ impl FeatureContacts {
 }
 
 /// Writes the bits of all contacts when the law has acted: a saddle is not a contact of its own.
-pub(super) fn finish(flags: &mut [u8], weight: &[[f64; 2]]) {
+pub(super) fn finish(flags: &mut [u8], weight: &[[f64; 3]]) {
     flags.iter_mut().for_each(|flags| *flags &= TOUCHING | SLIDING);
-    for (flags, _) in flags.iter_mut().zip(weight).filter(|(_, [weight, _])| *weight < 0.0) {
+    for (flags, _) in flags.iter_mut().zip(weight).filter(|(_, [weight, ..])| *weight < 0.0) {
         *flags = 0;
     }
 }

@@ -7,6 +7,7 @@
 
 mod at_feet;
 mod columns;
+mod held;
 mod on_planes;
 mod standing;
 mod through;
@@ -68,6 +69,9 @@ impl AtSurface {
         contacts.complete(&past, from..to, self.kept_rows);
         if contacts.kept.is_none() {
             self.remember(&at, &past, contacts);
+            if let Some(row) = self.law.law.history_places().held {
+                held::hand_on(row, &past, contacts, &work.particles);
+            }
         }
         let behind = self.came_through(&at, work, slots, contacts);
         let FeatureContacts { particle, feature, number, foot, weight, pair_constant, held, traces, .. } = contacts;

@@ -11,7 +11,7 @@ use crate::engine::contacts::surfaces::AtSurface;
 use crate::engine::state::contacts::TOUCHING;
 use crate::engine::state::{Row, State};
 use crate::laws::contact::{MOST_HISTORY, Reaction};
-use crate::laws::surface::{Feet, Foot};
+use crate::laws::surface::{Feet, Foot, NodeWeights};
 
 /// Stiffness of a contact that a sphere has all around an axis over that along its normal, in any direction, at most: near the axis
 /// the force turns by 8 F δ⁻¹ for each length, and no law's F is above k δ.
@@ -204,19 +204,33 @@ impl AtSurface {
         held
     }
 
-    /// Tells the particle (slot), the overlap \[m\] and the weight of each contact with a feature that has one of these flags.
+    /// Tells the particle (slot), the overlap \[m\] and the weight of each contact with a feature that has one of these flags, and what
+    /// the nodes around its foot give, where these have temperatures.
     pub(in crate::engine::contacts::surfaces) fn touched_at_features(
         &self,
         (state, flags): (&State, u8),
-        tell: &mut dyn FnMut(u32, f64, f64),
+        mut tell: impl FnMut(u32, f64, f64, &[NodeWeights]),
     ) {
-        let list = self.list(state);
         // No bond suppresses a contact with a feature.
-        if flags & TOUCHING != 0 {
-            self.each(state, Motion::Present, |entry, foot, _, ContactGeometry { contact, .. }| {
-                tell(list.particle[entry], contact.overlap, foot.weight);
-            });
+        if flags & TOUCHING == 0 {
+            return;
         }
+        let _ = self.follow(state);
+        let (list, mut grips) = (self.list(state), Vec::new());
+        let boundary = list.boundary as usize;
+        let are_warm = state.heat.as_ref().is_some_and(|heat| heat.nodes_of(boundary).is_some());
+        let standing = (&state.boundaries[boundary], state.nodes_of(boundary));
+        MovingSurface::with(self, standing, |at| {
+            self.each_at(&at, state, Motion::Present, |entry, foot, _, ContactGeometry { contact, .. }| {
+                let slot = list.particle[entry];
+                grips.clear();
+                if let Some(moving) = at.moving.as_ref().filter(|_| are_warm) {
+                    let centre = at.frame.inside(Vector::from(state.particles.position[slot as usize]));
+                    moving.shape.grips(foot.feature, centre - foot.normal * foot.distance, &mut grips);
+                }
+                tell(slot, contact.overlap, foot.weight, &grips);
+            });
+        });
     }
 
     /// Largest overlap with a feature over the radius of the particle.
