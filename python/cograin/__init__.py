@@ -1,8 +1,8 @@
 """Couples units of grains with structures and with other units.
 
-A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond.
-A `Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `RigidBody`, a
-`HeatCapacity`, a `UnitPartner`, a flow of `cograin.fluid`. An `Exchange` says how both sides agree on a communication
+A `Unit` is a ``.fmu``. An `Interface` names the displacements of units that are coupled, and the forces that respond. A
+`Partner` is the other side: an `Oscillator`, a `Modal` model, a `Structure` of finite elements, a `RigidBody`, a
+`HeatCapacity`, a flow of `cograin.fluid`, a `UnitPartner`. An `Exchange` says how both sides agree on a communication
 step: `GaussSeidel`, `Jacobi` and `Verlet` are explicit; `FixedPoint`, `Aitken`, `Secant`, `QuasiNewton` and `Newton`
 repeat the step; `Quadratic` is of fourth order.
 `couple` runs both sides and returns a `Record`.
