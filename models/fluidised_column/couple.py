@@ -28,7 +28,7 @@ def fixed(velocity, porosities, height):
 
 
 def course(unit, interval, end, highest):
-    """The velocity grows from 0 to the highest [m/s] at the end [s]; a table, porosities, weight and height of a cell."""
+    """The velocity grows from 0 to the highest [m/s] at the end [s]; table, porosities, weight, height of a cell."""
     side = FluidInterface(unit, "air")
     column = Column(side, DENSITY, gravity=-GRAVITY, inflow=lambda time: highest * time / end)
     begun = solid(column)
