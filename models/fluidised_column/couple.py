@@ -28,24 +28,26 @@ def fixed(velocity, porosities, height):
 
 
 def course(unit, interval, end, highest):
-    """The velocity grows from 0 to the highest [m/s] at the end [s]; table, porosities, weight, height of a cell."""
+    """The velocity grows from 0 to the highest [m/s] at the end [s]: table, porosities, weight, height, gradients."""
     side = FluidInterface(unit, "air")
     column = Column(side, DENSITY, gravity=-GRAVITY, inflow=lambda time: highest * time / end)
     begun = solid(column)
     coupling = Coupling(side, column, QuasiNewton(), interval)
-    rows, porosities, worst = [], [], 0.0
+    rows, porosities, gradients, worst = [], [], [], 0.0
     for row in coupling.steps(end):
         rest = DENSITY * GRAVITY * column.height * len(column.porosity)
         drop = column.pressure_drop - rest
         rows.append([row.time, highest * row.time / end, drop, unit["floor.force.z"]])
         porosities.append(column.porosity)
+        gradients.append(column.pressure_gradient + DENSITY * GRAVITY)
         worst = max(worst, abs(solid(column) - begun) / begun)
     print(coupling.record.summary)
     print(f"the volume of the beads in the cells changed by {worst:.1e} of itself")
     names = ["time", "velocity", "pressure_drop", "floor.force.z"]
     units = dict(zip(names, ["s", "m/s", "Pa", "N"], strict=True))
     table = Table(dict(zip(names, np.array(rows).T, strict=True)), units)
-    return table, np.array(porosities), begun * (SOLID - DENSITY) * GRAVITY / AREA, column.height
+    weight = begun * (SOLID - DENSITY) * GRAVITY / AREA
+    return table, np.array(porosities), weight, column.height, np.array(gradients)
 
 
 def solid(column):
@@ -59,7 +61,7 @@ def at_rest(table, porosities, weight):
     return porosities[crossing // 3 : 2 * crossing // 3].mean(axis=0), crossing
 
 
-def report(table, porosities, weight, height):
+def report(table, porosities, weight, height, gradients):
     """Prints what the bed did beside the closed forms, once the air carries its weight [Pa]."""
     velocity, drop = table["velocity"], table["pressure_drop"]
     carried = drop[velocity > 0.8 * velocity[-1]].mean()
@@ -68,8 +70,10 @@ def report(table, porosities, weight, height):
         return
     bed, crossing = at_rest(table, porosities, weight)
     rest = slice(crossing // 3, 2 * crossing // 3)
+    inside = -gradients[rest, :3].sum(axis=1) * height / fixed(velocity[rest], bed[:3], height)
     ratio = drop[rest] / fixed(velocity[rest], bed, height)
-    print(f"at rest: drop over Ergun's {ratio.mean():.3f} ± {ratio.std():.3f}")
+    print(f"at rest: drop over Ergun's {inside.mean():.3f} ± {inside.std():.3f} below the surface", end=", ")
+    print(f"{ratio.mean():.3f} ± {ratio.std():.3f} in all")
     least = brentq(lambda each: fixed(each, bed, height) - weight, 1e-3, 10.0)
     print(f"the drop meets the weight at {velocity[crossing]:.3f} m/s, Ergun's at {least:.3f} m/s")
 

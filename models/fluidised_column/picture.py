@@ -10,7 +10,7 @@ def draw(path, folder, found, laws):
     """Writes the pressure drop beside Ergun's law, porosities over height and velocity, and beads at three of them."""
     figure = Figure(figsize=(12.0, 5.0), layout="constrained")
     drops, heights, *beads = figure.subplots(1, 5, width_ratios=[1.5, 1.5, 0.4, 0.4, 0.4])
-    (table, porosities, weight, cell), (at_rest, fixed) = found, laws
+    (table, porosities, weight, cell, _), (at_rest, fixed) = found, laws
     velocity, drop = table["velocity"], table["pressure_drop"]
     bed, _ = at_rest(table, porosities, weight)
     drops.plot(velocity, drop, color="#d55e00", linewidth=0.8, label="beads and column")
@@ -31,5 +31,5 @@ def draw(path, folder, found, laws):
     for panel, share in zip(beads, (0.3, 0.6, 1.0), strict=True):
         frame = frames[int(share * (len(frames) - 1))]
         packing(frame, by="velocity", view="y", panel=panel)
-        panel.set(title=f"{share * velocity[-1]:.2f} m/s")
+        panel.set(ylim=(0.0, 0.032), title=f"{share * velocity[-1]:.2f} m/s")
     figure.savefig(path, dpi=110)
