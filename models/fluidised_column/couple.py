@@ -8,6 +8,7 @@ import numpy as np
 from cograin import Coupling, Program, QuasiNewton, Unit
 from cograin.fluid import Column, FluidInterface
 from cograin.results import Table
+from scipy.optimize import brentq
 
 HERE = Path(__file__).resolve().parent
 DENSITY, VISCOSITY, SOLID, DIAMETER, GRAVITY = 1.2, 1.8e-5, 2500.0, 1e-3, 9.81
@@ -21,17 +22,13 @@ def ergun(velocity, porosity):
     return viscous + 1.75 * solid * DENSITY * velocity**2 / (porosity**3 * DIAMETER)
 
 
-def least(porosity):
-    """Velocity [m/s] at which that carries the weight of the bed."""
-    solid = 1.0 - porosity
-    square = 1.75 * solid * DENSITY / (porosity**3 * DIAMETER)
-    linear = 150.0 * solid**2 * VISCOSITY / (porosity**3 * DIAMETER**2)
-    weight = solid * (SOLID - DENSITY) * GRAVITY
-    return (-linear + np.sqrt(linear**2 + 4.0 * square * weight)) / (2.0 * square)
+def fixed(velocity, porosities, height):
+    """Pressure drop [Pa] by that law of cells of this height [m] with these porosities."""
+    return height * ergun(np.asarray(velocity)[..., None], porosities).sum(axis=-1)
 
 
 def course(unit, interval, end, highest):
-    """The velocity grows from 0 to the highest [m/s] at the end [s]; a table, porosities, the weight [Pa]."""
+    """The velocity grows from 0 to the highest [m/s] at the end [s]; table, porosities, weight, height of a cell."""
     side = FluidInterface(unit, "air")
     column = Column(side, DENSITY, gravity=-GRAVITY, inflow=lambda time: highest * time / end)
     begun = solid(column)
@@ -39,17 +36,16 @@ def course(unit, interval, end, highest):
     rows, porosities, worst = [], [], 0.0
     for row in coupling.steps(end):
         rest = DENSITY * GRAVITY * column.height * len(column.porosity)
-        rows.append(
-            [row.time, highest * row.time / end, column.pressure_drop - rest, unit["floor.force.z"], top(column)]
-        )
+        drop = column.pressure_drop - rest
+        rows.append([row.time, highest * row.time / end, drop, unit["floor.force.z"]])
         porosities.append(column.porosity)
         worst = max(worst, abs(solid(column) - begun) / begun)
     print(coupling.record.summary)
     print(f"the volume of the beads in the cells changed by {worst:.1e} of itself")
-    names = ["time", "velocity", "pressure_drop", "floor.force.z", "height"]
-    units = dict(zip(names, ["s", "m/s", "Pa", "N", "m"], strict=True))
+    names = ["time", "velocity", "pressure_drop", "floor.force.z"]
+    units = dict(zip(names, ["s", "m/s", "Pa", "N"], strict=True))
     table = Table(dict(zip(names, np.array(rows).T, strict=True)), units)
-    return table, np.array(porosities), begun * (SOLID - DENSITY) * GRAVITY / AREA
+    return table, np.array(porosities), begun * (SOLID - DENSITY) * GRAVITY / AREA, column.height
 
 
 def solid(column):
@@ -57,32 +53,25 @@ def solid(column):
     return column.volume * (1.0 - column.porosity).sum()
 
 
-def top(column):
-    """Height of the bed, were it as full everywhere as in its lower half [m]."""
-    full = 1.0 - column.porosity
-    return column.height * full.sum() / full[1:3].mean()
+def at_rest(table, porosities, weight):
+    """Porosities of the bed [1] while the air carries less than its weight [Pa], and where that ends in the table."""
+    crossing = int(np.argmax(table["pressure_drop"] > weight))
+    return porosities[crossing // 3 : 2 * crossing // 3].mean(axis=0), crossing
 
 
-def report(table, weight):
+def report(table, porosities, weight, height):
     """Prints what the bed did beside the closed forms, once the air carries its weight [Pa]."""
     velocity, drop = table["velocity"], table["pressure_drop"]
     carried = drop[velocity > 0.8 * velocity[-1]].mean()
     print(f"the beads weigh {weight:.1f} Pa in air; it carries {carried:.1f} Pa in the mean of the last fifth")
     if drop.max() < weight:
         return
-    crossing = int(np.argmax(drop > weight))
-    height = table["height"][crossing // 2 : crossing].mean()
-    porosity = packed(weight, height)
+    bed, crossing = at_rest(table, porosities, weight)
     rest = slice(crossing // 3, 2 * crossing // 3)
-    ratio = drop[rest] / (height * ergun(velocity[rest], porosity))
-    print(f"at rest: porosity {porosity:.3f}, drop over Ergun's {ratio.mean():.3f} ± {ratio.std():.3f}")
-    print(f"the drop meets the weight at {velocity[crossing]:.3f} m/s", end="; ")
-    print(f"Ergun's minimum of fluidisation is {least(porosity):.3f} m/s")
-
-
-def packed(weight, height):
-    """Porosity of a bed of this weight [Pa] and height [m]."""
-    return 1.0 - weight / (height * (SOLID - DENSITY) * GRAVITY)
+    ratio = drop[rest] / fixed(velocity[rest], bed, height)
+    print(f"at rest: drop over Ergun's {ratio.mean():.3f} ± {ratio.std():.3f}")
+    least = brentq(lambda each: fixed(each, bed, height) - weight, 1e-3, 10.0)
+    print(f"the drop meets the weight at {velocity[crossing]:.3f} m/s, Ergun's at {least:.3f} m/s")
 
 
 def main():
@@ -101,14 +90,14 @@ def main():
         shutil.rmtree(options.output / "frames", ignore_errors=True)
         frames = {"parameters": {"run.frames": str(options.output / "frames")}}
     with Unit(path, **frames) as unit:
-        table, porosities, weight = course(unit, options.interval, options.end, options.rate * options.end)
+        table, *bed = course(unit, options.interval, options.end, options.rate * options.end)
     rows = np.array([table[name] for name in table]).T
     np.savetxt(options.output / "couple.csv", rows, delimiter=",", header=",".join(table), comments="", fmt="%.17g")
-    report(table, weight)
+    report(table, *bed)
     if not options.no_picture:
         from picture import draw
 
-        draw(options.output / "fluidised_column.png", options.output / "frames", (table, porosities, weight), (ergun, packed))
+        draw(options.output / "fluidised_column.png", options.output / "frames", (table, *bed), (at_rest, fixed))
 
 
 if __name__ == "__main__":

@@ -10,15 +10,13 @@ def draw(path, folder, found, laws):
     """Writes the pressure drop beside Ergun's law, porosities over height and velocity, and beads at three of them."""
     figure = Figure(figsize=(12.0, 5.0), layout="constrained")
     drops, heights, *beads = figure.subplots(1, 5, width_ratios=[1.5, 1.5, 0.4, 0.4, 0.4])
-    (table, porosities, weight), (ergun, packed) = found, laws
+    (table, porosities, weight, cell), (at_rest, fixed) = found, laws
     velocity, drop = table["velocity"], table["pressure_drop"]
-    crossing = int(np.argmax(drop > weight))
-    height = table["height"][crossing // 2 : crossing].mean()
-    porosity = packed(weight, height)
+    bed, _ = at_rest(table, porosities, weight)
     drops.plot(velocity, drop, color="#d55e00", linewidth=0.8, label="beads and column")
-    slow = velocity[height * ergun(velocity, porosity) < 1.3 * weight]
-    law = f"Ergun, porosity {porosity:.3f}"
-    drops.plot(slow, height * ergun(slow, porosity), color="#0072b2", linestyle="--", label=law)
+    law = fixed(velocity, bed, cell)
+    slow = law < 1.3 * weight
+    drops.plot(velocity[slow], law[slow], color="#0072b2", linestyle="--", label="Ergun, cell by cell")
     drops.axhline(weight, color="#000000", linestyle=":", label="weight of the beads")
     drops.set(xlabel="superficial velocity [m/s]", ylabel="pressure drop [Pa]")
     drops.legend(frameon=False, fontsize="small", loc="lower right")
@@ -33,5 +31,5 @@ def draw(path, folder, found, laws):
     for panel, share in zip(beads, (0.3, 0.6, 1.0), strict=True):
         frame = frames[int(share * (len(frames) - 1))]
         packing(frame, by="velocity", view="y", panel=panel)
-        panel.set(ylim=(0.0, 0.06), title=f"{share * velocity[-1]:.2f} m/s")
+        panel.set(title=f"{share * velocity[-1]:.2f} m/s")
     figure.savefig(path, dpi=110)
