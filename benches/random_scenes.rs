@@ -9,9 +9,9 @@
 #[allow(dead_code, reason = "the tests use more of it")]
 mod support;
 
-#[path = "../tests/random_scenes/compare.rs"]
+#[path = "../tests/step/random_scenes/compare.rs"]
 mod compare;
-#[path = "../tests/random_scenes/scenes.rs"]
+#[path = "../tests/step/random_scenes/scenes.rs"]
 mod scenes;
 
 use compare::{ALLOWED, Agreement, Outcome, judge};

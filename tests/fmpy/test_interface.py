@@ -30,7 +30,7 @@ def test_change_of_work_is_minus_mean_force_times_displacement(unit, model, cour
     subject = slave(unit(model))
     driven = boundaries(subject)
     if not driven:
-        pytest.skip(f"{model} is led by no displacement: tests/loaded.rs and tests/servo.rs hold the books of forces")
+        pytest.skip(f"{model} is led by no displacement: tests/bodies/loaded.rs and tests/boundaries/servo.rs hold the books of forces")
     leading = [name for name in subject.inputs if not name.endswith(".rate")]
     assert len(leading) == sum(map(len, driven.values())), f"{model} is led by forces, too"
     work, exchanged, before = dict.fromkeys(driven, 0.0), dict.fromkeys(driven, 0.0), 0.0

@@ -3,7 +3,7 @@
 use super::held::{ALL, assert_booked, unheated, with_step};
 use super::losses::{heat, lost};
 use super::{GRAINS, assert_close};
-use crate::bonded_exchange::{DAMPED, torn};
+use crate::exchange::bonds::{DAMPED, torn};
 use crate::support::start;
 use cograin::state::Loss;
 

@@ -1,5 +1,7 @@
 //! A fluid without a partner: drag laws against closed forms, books, the scheme, and the same bits.
 
+mod grids;
+
 use crate::support::{read, start};
 use cograin::interface::{Interface, Value};
 use cograin::lanes::Width;

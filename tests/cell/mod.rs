@@ -1,5 +1,9 @@
 //! A periodic cell: its images, its motion, its stress and its work, against closed forms.
 
+mod boundaries;
+mod clumps;
+mod exchange;
+
 use crate::support::{read, start};
 use cograin::lanes::Width;
 use cograin::simulation::Simulation;

@@ -1,5 +1,8 @@
 //! Particles that come and go: counted, booked, and the same bits whoever works on them and wherever a run is taken up.
 
+pub(crate) mod bonds;
+mod clumps;
+
 use crate::support::scene;
 use cograin::lanes::Width;
 use cograin::scene::Scene;

@@ -1,6 +1,6 @@
 //! `finite_rotation`: force and moments against central differences of the energy.
 
-use crate::bond_laws::placement::{Placement, Random, answer, created, law, turn};
+use crate::bonds::laws::placement::{Placement, Random, answer, created, law, turn};
 use cograin::bond::Formulation;
 use cograin::bond::formulation::finite_rotation::FiniteRotation;
 use cograin::number::Vector;
@@ -97,7 +97,7 @@ fn turning_the_pair_turns_force_and_moments() {
 fn exchanging_the_bodies_changes_nothing() {
     let mut random = Random(4);
     let law = law();
-    let radii = crate::bond_laws::placement::RADII;
+    let radii = crate::bonds::laws::placement::RADII;
     for _ in 0..100 {
         let start = Placement::random(&mut random);
         let placement = start.disturbed(&mut random, 0.3, 0.8);

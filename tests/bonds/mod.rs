@@ -1,5 +1,13 @@
 //! Bonds in whole scenes: to planes, and what the outside sees of them.
 
+mod block;
+mod energies;
+pub(crate) mod laws;
+mod lists;
+mod order;
+mod suppressed_contacts;
+mod vibrating;
+
 use crate::support::start;
 use cograin::interface::Interface;
 use cograin::simulation::{Placement, Simulation};

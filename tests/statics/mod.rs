@@ -1,6 +1,8 @@
 //! The condensed stiffness of boundaries: against closed forms, and against what the time steps come to when they have
 //! settled.
 
+mod derivatives;
+
 use crate::support::start;
 use cograin::interface::{Derivatives, Interface, Value};
 use cograin::quantity::BoundaryIndex;

@@ -4,9 +4,9 @@
 //! a power of two. The automatic step has no absolute bound, and odd roots are those of numbers without units. Every number of a
 //! scene has its unit here ([`exponent`]): a scene with a new key asks for it.
 
-use crate::every_law::{bond_laws, contact_laws};
-use crate::every_surface::text_of;
+use crate::contacts::every_law::{bond_laws, contact_laws};
 use crate::support::{Files, start_with};
+use crate::surfaces::every_surface::text_of;
 use cograin::interface::{Interface, Value};
 use cograin::quantity::BoundaryIndex;
 use cograin::simulation::Simulation;

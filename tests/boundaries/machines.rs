@@ -1,6 +1,6 @@
 //! Boundaries that move with another one, as parts of one machine.
 
-use crate::regions::value;
+use crate::averages::regions::value;
 use crate::support::{checked, read, scene, start};
 use cograin::interface::{Interface, Value};
 use cograin::simulation::{Description, Simulation};

@@ -1,7 +1,7 @@
 //! Grids: a cell has what a region of the same box has; in sum the cells have what all has; the same bits whatever the threads, the
 //! way through bytes and the scale.
 
-use crate::regions::{PLANES, Vector, apart, bed, value};
+use crate::averages::regions::{PLANES, Vector, apart, bed, value};
 use crate::support::{checked, read, start};
 use cograin::averages::{self, Content, Tensor};
 use cograin::interface::{self, Interface, Value};

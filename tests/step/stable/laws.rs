@@ -4,7 +4,7 @@
 
 use super::linearised::{largest_step, measured, scaled};
 use super::{stated, with_step};
-use crate::every_law::laws;
+use crate::contacts::every_law::laws;
 use crate::support::{checked, read};
 use cograin::contact::Scheme;
 use cograin::scene::Models;

@@ -1,6 +1,6 @@
 //! Bonds under motion that is prescribed: what a turn does to a load, and how errors fall with the step.
 
-use crate::bond_laws::placement::{RADII, law, turn};
+use crate::bonds::laws::placement::{RADII, law, turn};
 use cograin::bond::formulation::engine_exact::EngineExact;
 use cograin::bond::formulation::finite_rotation::FiniteRotation;
 use cograin::bond::formulation::incremental::Incremental;

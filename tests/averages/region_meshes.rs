@@ -1,6 +1,6 @@
 //! Regions inside of meshes: what they say is what boxes of the same shape say, and nothing depends on how the work is shared.
 
-use crate::regions::{PLANES, PRESSED, Vector, apart, bed, bed_with, value};
+use crate::averages::regions::{PLANES, PRESSED, Vector, apart, bed, bed_with, value};
 use crate::support::start_with;
 use cograin::averages::{self, Tensor};
 use cograin::interface::Interface;
@@ -64,7 +64,7 @@ fn regions_of_spheres_on_a_lattice_with_centres_on_faces_edges_and_corners() {
 
 /// The box of `box.obj`, and a tetrahedron.
 fn mesh_files() -> BTreeMap<String, Vec<u8>> {
-    let mut files = crate::regions::box_file();
+    let mut files = crate::averages::regions::box_file();
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
     files.insert("corner.obj".to_owned(), text.as_bytes().to_vec());
     files

@@ -3,6 +3,11 @@
 //!
 //! Unless something else is said: radius 5 mm, E = 5 MPa and ν = 0.3 of both, hence E* = 2.7473 MPa; F(δ) = 4/3 E* √(R δ³).
 
+mod courses;
+pub(crate) mod every_surface;
+mod on_axis;
+mod through;
+
 use crate::support::{scene_with, start_with};
 use cograin::quantity::BoundaryIndex;
 use cograin::scene::{Scene, SceneDraft};

@@ -1,6 +1,6 @@
 //! Closed loops, rigid rotation, relaxation: what is kept and what is booked.
 
-use crate::bond_laws::placement::{Placement, Random, answer, created, law, turn};
+use crate::bonds::laws::placement::{Placement, Random, answer, created, law, turn};
 use cograin::bond::Formulation;
 use cograin::bond::formulation::finite_rotation::FiniteRotation;
 use cograin::geometry::Quaternion;

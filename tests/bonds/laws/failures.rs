@@ -1,6 +1,6 @@
 //! Known failures of the engine's bond: each shown in `engine_exact`, and its absence in the other formulations.
 
-use crate::bond_laws::placement::turn;
+use crate::bonds::laws::placement::turn;
 use crate::support::start;
 use cograin::number::Vector;
 use cograin::simulation::Simulation;

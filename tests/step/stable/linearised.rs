@@ -1,7 +1,7 @@
 //! The whole time step, linearised by trying it: the engine makes one time step from rest with each freedom of each sphere
 //! moving a little, and the loads that follow are stiffness and damping, as full matrices.
 
-use crate::stable_step::with_step;
+use crate::step::stable::with_step;
 use crate::support::checked;
 use cograin::scene::Scene;
 use cograin::simulation::Simulation;

@@ -1,6 +1,10 @@
 //! Bodies that forces move, from far lighter to far heavier than what they touch: impacts, springs, dashpots, and the time step that
 //! follows them.
 
+mod clumps;
+mod free_groups;
+mod loaded;
+
 use crate::support::start;
 use cograin::simulation::{LimiterKind, Simulation};
 use std::f64::consts::PI;

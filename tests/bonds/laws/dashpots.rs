@@ -1,6 +1,6 @@
 //! Dashpots in a bond that turns: their rates are those of mid-step, and so is the axis about which they are taken.
 
-use crate::bond_laws::placement::{RADII, turn};
+use crate::bonds::laws::placement::{RADII, turn};
 use cograin::bond::damping::LastDamping;
 use cograin::bond::formulation::FormulationChoice;
 use cograin::bond::keys::{DampingChoice, PartKeys};

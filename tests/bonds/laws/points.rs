@@ -1,6 +1,6 @@
 //! Points worked out by hand: breakage, damping, the first steps of the engine's bond.
 
-use crate::bond_laws::placement::RADII;
+use crate::bonds::laws::placement::RADII;
 use cograin::bond::breakage::{Rule, distance::Distance, stress::StressLimits};
 use cograin::bond::damping::LastDamping;
 use cograin::bond::formulation::FormulationChoice;

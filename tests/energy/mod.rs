@@ -1,0 +1,4 @@
+//! The books of energy.
+
+mod books;
+mod losses;
