@@ -431,7 +431,7 @@ fn what_an_insertion_of_clumps_cannot_be_is_refused_in_words() {
             with("{ clump = [\"pair\", \"bent\"], by_number = [1, 2], radius = [1e-3, 2e-3, 3e-3] }"),
             "expected a radius for all, or for each clump, found 3 radii and 2 clumps",
         ),
-        (with("{ clump = \"pair\", by_number = [1] }"), "radius, uniform or normal"),
+        (with("{ clump = \"pair\", by_number = [1] }"), "missing; one of radius, uniform, normal"),
         (with("{ clump = \"pair\", radius = 0.03 }"), "too narrow for a clump within a sphere of radius 0.03 m"),
         (with("{ clumps = \"pair\" }"), "clump"),
     ] {

@@ -4,7 +4,7 @@ use crate::ground::{Place, cograin, complaint};
 use std::fs;
 
 /// Ends that the recipes are run to here \[s\]: some time steps of each.
-const ENDS: [(&str, &str); 18] = [
+const ENDS: [(&str, &str); 19] = [
     ("drop", "1e-3"),
     ("oedometer", "2e-4"),
     ("triaxial", "4e-5"),
@@ -16,6 +16,7 @@ const ENDS: [(&str, &str); 18] = [
     ("plate", "5e-4"),
     ("loaded_beam", "4e-4"),
     ("fluid", "4e-4"),
+    ("fluidised_column", "4e-4"),
     ("heat", "1e-3"),
     ("clumps", "4e-4"),
     ("tablets", "4e-4"),

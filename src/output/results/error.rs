@@ -119,7 +119,7 @@ pub enum ResumeError {
     },
     /// It is one of another program.
     #[error(
-        "{}: is a checkpoint in the format of another version of the program; this one reads format 1: go on with the program that wrote it",
+        "{}: is a checkpoint in the format of another version of the program: go on with the program that wrote it",
         path.display()
     )]
     Format {
