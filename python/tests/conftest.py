@@ -1,6 +1,7 @@
 """Small scenes as units, made by the command line once a session."""
 
 import shutil
+import signal
 from pathlib import Path
 
 import pytest
@@ -70,6 +71,12 @@ motion = { driven = ["x"] }
 
 def pytest_addoption(parser):
     parser.addoption("--program", default="target/debug/cograin", help="the cograin command, from the root")
+
+
+@pytest.fixture(scope="session", autouse=True)
+def interruptible():
+    """A shell makes what it runs in the background deaf to Ctrl-C: the tests listen all the same."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
