@@ -126,7 +126,10 @@ fn a_checkpoint_of_another_scene_is_refused() {
     let before = results(&out);
     let scene = place.scene("end = 0.004\nstep = 2e-5", "");
     let said = complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--resume"]).output().unwrap(), 2);
-    assert!(said.contains("is a checkpoint of scene.toml at t = 0.002") && said.contains("--end for another end"), "{said}");
+    assert!(
+        said.contains("is a checkpoint of scene.toml at t = 0.002") && said.contains("--end for another end"),
+        "{said}"
+    );
     let scene = place.scene("end = 0.002\nstep = 1e-5", "");
     let said = complaint(&cograin(&[&"run", &scene, &"-o", &out, &"--resume"]).output().unwrap(), 2);
     assert!(said.contains("is a checkpoint of scene.toml at t = 0.002") && said.contains("--from"), "{said}");

@@ -46,6 +46,45 @@ fn the_summary_closes_its_books() {
 }
 
 #[test]
+fn the_balance_of_momentum_has_the_impulse_of_a_fluid() {
+    let place = Place::new("momentum_of_a_fluid");
+    let (scene, out) = (place.at("scene.toml"), place.at("out"));
+    fs::write(&scene, SINKING).unwrap();
+    complaint(&cograin(&[&"run", &scene, &"-o", &out]).output().unwrap(), 0);
+    let momentum = &summary(&out)["momentum"];
+    assert!(momentum["relative_residual"].as_f64().unwrap() < 1e-12, "{momentum:#}");
+    // The wind takes everything along x; buoyancy and drag bear a part of the weight.
+    let along = |term: &str, axis: usize| momentum[term][axis].as_f64().unwrap();
+    assert!(along("fluid", 0) > 0.0 && (along("fluid", 0) / along("change", 0) - 1.0).abs() < 1e-12, "{momentum:#}");
+    assert!(along("fluid", 2) > 0.0 && along("fluid", 2) < -along("gravity", 2), "{momentum:#}");
+}
+
+/// A sphere and a clump that sink in a wind.
+const SINKING: &str = r#"
+gravity = [0.0, 0.0, -9.81]
+[run]
+end = 0.01
+step = 1e-5
+[material.glass]
+density = 2500.0
+[clump.pair]
+spheres = [{ position = [0.0, 0.0, 0.0], radius = 5e-4 }, { position = [5e-4, 0.0, 0.0], radius = 5e-4 }]
+[particles.ball]
+material = "glass"
+list = [{ position = [0.0, 0.0, 0.0], radius = 1e-3 }]
+[particles.pairs]
+material = "glass"
+clump = "pair"
+list = [{ position = [0.01, 0.0, 0.0], angular_velocity = [30.0, 20.0, 10.0] }]
+[fluid.water]
+density = 1000.0
+viscosity = 1e-3
+velocity = [0.1, 0.0, 0.0]
+torque = true
+[fluid.water.drag.schiller_naumann]
+"#;
+
+#[test]
 fn any_number_of_threads_leaves_the_same_bytes() {
     let place = Place::new("threads");
     let scene = place.scene("end = 4e-3\nstep = 2e-5", ALL_OUTPUTS);

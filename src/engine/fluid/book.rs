@@ -43,6 +43,8 @@ struct Exchanged {
     taken: f64,
     /// Work on the bodies that forces move \[J\].
     on_free: f64,
+    /// Impulse on them \[N s\].
+    moved: Vector,
     /// What all other forces do to these more in a half kick of another length than the last one's, of what the energy book tells
     /// from that one \[J\].
     others: f64,
@@ -66,6 +68,7 @@ impl Exchanged {
             work: self.work + other.work,
             taken: self.taken + other.taken,
             on_free: self.on_free + other.on_free,
+            moved: self.moved + other.moved,
             others: self.others + other.others,
         }
     }
@@ -124,6 +127,7 @@ impl HalfKick {
             work: drag.dot(here.velocity) + half * push.dot(mean),
             taken: drag.dot(here.velocity - mean),
             on_free: if is_free { drag.dot(mean) + half * push.dot(mean) } else { 0.0 },
+            moved: if is_free { drag + push * half } else { Vector::zero() },
             others: 0.5 * half * others.dot(more),
         }
     }
@@ -182,6 +186,7 @@ pub(crate) fn book(medium: &mut Medium, state: &mut State, kick: Kick, context: 
     }
     (medium.sums, fluid.exchanged) = (sums, cells);
     fluid.work += sum.work;
+    fluid.impulse = (Vector::from(fluid.impulse) + sum.moved).to_array();
     state.fluid = Some(fluid);
     if let Some(losses) = &mut state.losses {
         losses.add(Loss::Drag, sum.taken);

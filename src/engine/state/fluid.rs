@@ -60,6 +60,8 @@ pub struct FluidState {
     pub mean_heat: Vec<Row>,
     /// Work of the fluid since counting began: drag along its own velocity, and buoyancy along those of the particles \[J\].
     pub work: f64,
+    /// Impulse on the bodies that forces move, of drag and pressure, since counting began \[N s\].
+    pub impulse: [f64; 3],
 }
 
 clone_in_place!(FluidState {
@@ -72,7 +74,8 @@ clone_in_place!(FluidState {
     mean,
     heat,
     mean_heat,
-    work
+    work,
+    impulse
 });
 
 /// How many rows a cell has of what it exchanges where a gradient of its pressure is given. Elsewhere it has one.
@@ -187,12 +190,13 @@ impl FluidState {
     /// Counts from here.
     pub(super) fn begin_counting(&mut self) {
         self.work = 0.0;
+        self.impulse = [0.0; 3];
     }
 
     /// Whether it can be one.
     pub(super) fn check(&self) -> Result<(), StateFault> {
-        let Self { velocity, pressure_gradient, temperature, porosity, step, exchanged, mean, heat, mean_heat, work } =
-            self;
+        let Self { velocity, pressure_gradient, temperature, porosity, step, .. } = self;
+        let Self { exchanged, mean, heat, mean_heat, work, impulse, .. } = self;
         let count = velocity.now.len();
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
@@ -204,6 +208,7 @@ impl FluidState {
         rows.into_iter().try_for_each(|rows| all_finite(rows.as_flattened(), "fluid"))?;
         all_finite(porosity, "fluid")?;
         all_finite(&[*step, *work], "fluid")?;
+        all_finite(impulse, "fluid")?;
         let fills = velocity.now.iter().all(|row| row[3] > 0.0 && row[3] <= 1.0);
         demand(fills, "fluid", 0, "a porosity above 0 and up to 1")?;
         demand(*step >= 0.0, "fluid", 0, "a step of 0 or above")

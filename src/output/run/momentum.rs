@@ -18,6 +18,8 @@ struct Account {
     damping: [f64; 3],
     /// Impulses since time 0 of inputs, and of springs and dashpots to the ground \[N s\].
     of_bodies: [[f64; 3]; 2],
+    /// Impulse of the fluid since counting began \[N s\].
+    fluid: [f64; 3],
     /// What came less what went.
     net: NetExchange,
     /// Time \[s\].
@@ -39,6 +41,9 @@ pub struct MomentumBalance {
     pub damping: [f64; 3],
     /// Impulse of springs and dashpots from bodies to the ground \[N s\].
     pub support: [f64; 3],
+    /// Impulse of drag and pressure of the fluid, where there is one \[N s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fluid: Option<[f64; 3]>,
     /// Momentum that came with particles less what went with others, where the number of particles changes \[N s\].
     #[serde(skip_serializing_if = "Option::is_none")]
     pub exchanged: Option<[f64; 3]>,
@@ -49,9 +54,15 @@ pub struct MomentumBalance {
 impl MomentumBalance {
     /// Whether every number is finite.
     pub(super) fn is_finite(&self) -> bool {
-        let Self { change, gravity, applied, boundaries, damping, support, exchanged, relative_residual } = self;
+        let Self { change, gravity, applied, boundaries, damping, support, fluid, exchanged, relative_residual } = self;
         let impulses = [change, gravity, applied, boundaries, damping, support];
-        impulses.into_iter().chain(exchanged).flatten().chain([relative_residual]).all(|number| number.is_finite())
+        impulses
+            .into_iter()
+            .chain(fluid)
+            .chain(exchanged)
+            .flatten()
+            .chain([relative_residual])
+            .all(|number| number.is_finite())
     }
 }
 
@@ -89,15 +100,17 @@ impl Start {
             less(end.boundaries, start.boundaries),
             less(end.damping, start.damping),
             support,
+            less(end.fluid, start.fluid),
             exchanged,
         ];
         let rest = terms.iter().fold(change, |rest, &term| less(rest, term));
         let largest = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, number| most.max(number.abs()));
         let scale = largest(terms.as_flattened()).max(largest(&change));
-        let [gravity, applied, boundaries, damping, ..] = terms;
+        let [gravity, applied, boundaries, damping, support, fluid, _] = terms;
         let relative_residual = if scale > 0.0 { largest(&rest) / scale } else { 0.0 };
+        let fluid = simulation.scene().fluid.is_some().then_some(fluid);
         let exchanged = simulation.scene().changes_number().then_some(exchanged);
-        MomentumBalance { change, gravity, applied, boundaries, damping, support, exchanged, relative_residual }
+        MomentumBalance { change, gravity, applied, boundaries, damping, support, fluid, exchanged, relative_residual }
     }
 }
 
@@ -136,7 +149,8 @@ fn account(scene: &Scene, state: &State) -> Account {
         boundaries.iter_mut().zip(cell.impulse).for_each(|(sum, part)| *sum += part);
     }
     let net = state.exchange.as_ref().map_or_else(NetExchange::default, |exchange| exchange.net);
-    Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, net, time: state.clock.time }
+    let fluid = state.fluid.as_ref().map_or([0.0; 3], |fluid| fluid.impulse);
+    Account { momentum, boundaries, damping: state.damping_impulse, of_bodies, fluid, net, time: state.clock.time }
 }
 
 /// Along which axes forces move a particle with this owner.
