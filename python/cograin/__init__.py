@@ -33,23 +33,23 @@ True
 joins units to preCICE. `cograin.ssp` packs several into one system (SSP).
 """
 
-from cograin.cells import Cells
-from cograin.coupling import Coupling, CouplingStopped, StepControl, couple
-from cograin.exchange import Exchange, GaussSeidel, Jacobi, Side, Verlet
+from cograin.base.program import Program, ProgramError
+from cograin.exchanges.coupling import Coupling, CouplingStopped, StepControl, couple
+from cograin.exchanges.exchange import Exchange, GaussSeidel, Jacobi, Side, Verlet
+from cograin.exchanges.implicit import Aitken, FixedPoint, Implicit, Newton, QuasiNewton, Secant
+from cograin.exchanges.quadratic import Quadratic
+from cograin.exchanges.record import Record, Row
+from cograin.exchanges.tolerance import Tolerance
 from cograin.heat import HeatCapacity
-from cograin.implicit import Aitken, FixedPoint, Implicit, Newton, QuasiNewton, Secant
-from cograin.interface import Interface, stiffness
-from cograin.mapping import Mapping
-from cograin.nodes import Nodes
-from cograin.partner import KickedPartner, Partner, Partners, UnitPartner
-from cograin.program import Program, ProgramError
-from cograin.quadratic import Quadratic
-from cograin.record import Record, Row
-from cograin.rigid_body import RigidBody
-from cograin.step import Force, Outcome, Step
-from cograin.structure import Modal, Oscillator, Structure
-from cograin.tolerance import Tolerance
-from cograin.unit import State, StepDiscarded, Unit, UnitError
+from cograin.partners.partner import KickedPartner, Partner, Partners, UnitPartner
+from cograin.partners.rigid_body import RigidBody
+from cograin.partners.step import Force, Outcome, Step
+from cograin.partners.structure import Modal, Oscillator, Structure
+from cograin.units.cells import Cells
+from cograin.units.interface import Interface, stiffness
+from cograin.units.mapping import Mapping
+from cograin.units.nodes import Nodes
+from cograin.units.unit import State, StepDiscarded, Unit, UnitError
 
 __all__ = [
     "Aitken",

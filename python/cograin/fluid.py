@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cograin.cells import Cells
-from cograin.step import Force, Step
-from cograin.unit import State
-from cograin.vector import Matrix, Vector, vector
+from cograin.base.vector import Matrix, Vector, vector
+from cograin.partners.step import Force, Step
+from cograin.units.cells import Cells
+from cograin.units.unit import State
 
 if TYPE_CHECKING:
-    from cograin.unit import Unit
+    from cograin.units.unit import Unit
 
 
 #: Porosity that a fluid has at least: overlaps of particles count twice, and drag laws see no smaller one.

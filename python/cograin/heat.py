@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cograin.step import Step
-from cograin.structure import Load, Structure
-from cograin.vector import Vector, vector
+from cograin.base.vector import Vector, vector
+from cograin.partners.step import Step
+from cograin.partners.structure import Load, Structure
 
 
 class HeatCapacity(Structure):

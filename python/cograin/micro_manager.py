@@ -28,8 +28,8 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cograin.unit import Unit, UnitError, Value
-from cograin.vector import Vector
+from cograin.base.vector import Vector
+from cograin.units.unit import Unit, UnitError, Value
 
 
 class Cell:

@@ -9,10 +9,10 @@ import numpy as np
 from scipy.sparse import bmat, csc_matrix
 from scipy.sparse.linalg import splu
 
-from cograin.extras import needed
+from cograin.base.extras import needed
+from cograin.base.vector import Matrix, Vector, vector
 from cograin.fluid import FluidInterface, Response
-from cograin.step import Step
-from cograin.vector import Matrix, Vector, vector
+from cograin.partners.step import Step
 
 #: Sides of the box: across the first axis, then across the second one.
 SIDES = ("low", "high")

@@ -24,12 +24,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cograin.interface import Interface
-from cograin.nodes import SCALARS
+from cograin.base.vector import Matrix, Vector, vector
+from cograin.partners.step import Force, Step
 from cograin.results import Table
-from cograin.step import Force, Step
-from cograin.unit import State, Unit
-from cograin.vector import Matrix, Vector, vector
+from cograin.units.interface import Interface
+from cograin.units.nodes import SCALARS
+from cograin.units.unit import State, Unit
 
 #: What a surface reads, and what it writes for it.
 QUANTITIES = {"displacement": "force", "rotation": "moment", "temperature": "heat"}

@@ -8,7 +8,7 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile, ZipInfo
 
 import fmpy
 
-from cograin.unit import UnitError, Value
+from cograin.units.unit import UnitError, Value
 
 _PLACE = "http://ssp-standard.org/SSP1/SystemStructure"
 _DESCRIPTION, _COMMON, _VALUES = (f"{{{_PLACE}{kind}}}" for kind in ("Description", "Common", "ParameterValues"))

@@ -37,9 +37,9 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from cograin.extras import needed
-from cograin.identity import Identity, differing, identity, of_file, of_program, of_scene, of_words
-from cograin.program import Program, ProgramError
+from cograin.base.extras import needed
+from cograin.base.identity import Identity, differing, identity, of_file, of_program, of_scene, of_words
+from cograin.base.program import Program, ProgramError
 from cograin.results import ResultError, Run
 from cograin.results.errors import reason
 from cograin.results.table import html
@@ -239,7 +239,7 @@ class UnitRun:
 
     def __call__(self, row: Row) -> Mapping[str, Value]:
         """Steps it with the values of a row."""
-        from cograin.unit import Unit
+        from cograin.units.unit import Unit
 
         with Unit(self.unit, parameters={"run.threads": 1}) as plain:
             parameters = set(plain.names("parameter"))

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from cograin.extras import needed
+from cograin.base.extras import needed
 from cograin.plot.command import numbered
 from cograin.plot.values import (
     FACET_FIELDS,

@@ -111,7 +111,7 @@ def test_a_run_that_was_broken_off_goes_on_with_the_same_bits(opened, tmp_path, 
     whole, file = run(opened(WET)), tmp_path / "run.checkpoint"
     with monkeypatch.context() as patched, pytest.raises(KeyboardInterrupt):
         steps = iter([None] * 2)
-        patched.setattr(cograin.coupling.Progress, "step", lambda *_: next(steps, broken) and broken())
+        patched.setattr(cograin.exchanges.coupling.Progress, "step", lambda *_: next(steps, broken) and broken())
         run(opened(WET), checkpoint=file)
     resumed = run(opened(WET), checkpoint=file)
     assert all(np.array_equal(whole[name], resumed[name]) for name in whole.table)

@@ -38,7 +38,7 @@ from cograin import (
     Verlet,
     couple,
 )
-from cograin.identity import differing, identity
+from cograin.base.identity import differing, identity
 from cograin.study import Changed, SceneRun, Study, UnitRun
 
 # A ball falls on a floor; a second plane and a particle from a file are there to be changed.
@@ -361,7 +361,7 @@ def coupled(exported, folder, program, monkeypatch):
                 if next(steps, None) is None:
                     raise BrokenOff
 
-            patched.setattr(cograin.coupling.Progress, "step", count)
+            patched.setattr(cograin.exchanges.coupling.Progress, "step", count)
             side, partner = Interface(ball, "floor.displacement.z"), named.get("partner", plate)()
             start = named.get("before", 0) * 1e-3
             return couple(side, partner, named.get("exchange", Secant)(), step=named.get("step", 1e-3),

@@ -33,7 +33,7 @@ from cograin import (
     Verlet,
     couple,
 )
-from cograin.progress import Progress
+from cograin.exchanges.progress import Progress
 
 FLOOR = "floor.displacement.z"
 ENDS = ["left.displacement.x", "right.displacement.x"]

@@ -22,7 +22,7 @@ from cograin import (
     Tolerance,
     couple,
 )
-from cograin.rotation import quaternion, rotation_vector, secant, turn
+from cograin.base.rotation import quaternion, rotation_vector, secant, turn
 
 # A dumbbell of two spheres, each bonded to a sphere that flies about with it. One group is free, or the outside moves
 # its two ends.

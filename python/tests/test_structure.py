@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cograin import Modal, Oscillator, Partners, Step, Structure
-from cograin.vector import vector
+from cograin.base.vector import vector
 
 
 def march(structure, force, length, count, off=0.0):

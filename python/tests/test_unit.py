@@ -11,7 +11,7 @@ import pytest
 from conftest import DROP
 
 from cograin import StepDiscarded, Unit, UnitError
-from cograin.unpacked import KEPT
+from cograin.units.unpacked import KEPT
 
 
 def swing(unit, first, last):

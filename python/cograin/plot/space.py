@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from cograin.extras import needed
+from cograin.base.extras import needed
 from cograin.plot.style import COLOURS, LINES, figure, prefixed
 from cograin.plot.values import FIELDS, are_kinds, colouring, contact_lines, ends, joined, scale, values
 from cograin.results import Cloud, Frame, ResultError, Run

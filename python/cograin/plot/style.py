@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from cograin.extras import needed
+from cograin.base.extras import needed
 
 #: Colours after Okabe and Ito, in an order in which neighbours differ in lightness, too.
 COLOURS = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#000000"]

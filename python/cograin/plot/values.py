@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from cograin.base.vector import Vector
 from cograin.results import Cloud, Frame, ResultError
-from cograin.vector import Vector
 
 #: Units of the fields of particles.
 FIELDS = {

@@ -11,11 +11,11 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from cograin.base.vector import Matrix
 from cograin.results.arrays import array_of
 from cograin.results.errors import ResultError, reason
 from cograin.results.images import Image, read_image
 from cograin.results.table import listed
-from cograin.vector import Matrix
 
 
 @dataclass(repr=False)

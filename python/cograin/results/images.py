@@ -10,10 +10,10 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from cograin.base.vector import Matrix, Vector
 from cograin.results.arrays import array_of
 from cograin.results.errors import ResultError, reason
 from cograin.results.table import listed
-from cograin.vector import Matrix, Vector
 
 
 @dataclass(repr=False)

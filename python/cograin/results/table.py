@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from cograin.extras import needed
+from cograin.base.extras import needed
+from cograin.base.vector import Vector
 from cograin.results.errors import ResultError, reason
 from cograin.results.units import unit_of
-from cograin.vector import Vector
 
 
 class Table(Mapping[str, Vector]):

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from cograin.base.vector import Vector
 from cograin.results import Table
-from cograin.vector import Vector
 
 #: Columns of every record, before displacements, forces and what is watched.
 COLUMNS = ("time", "length", "evaluations", "residual", "converged", "refusals", "interface_energy", "exchanged_work")

@@ -16,12 +16,12 @@ import fmpy.fmi2
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from cograin import interrupts
-from cograin.cells import Cells
-from cograin.identity import of_file
-from cograin.nodes import Nodes
-from cograin.unpacked import unpacked
-from cograin.vector import Matrix, Vector
+from cograin.base import interrupts
+from cograin.base.identity import of_file
+from cograin.base.vector import Matrix, Vector
+from cograin.units.cells import Cells
+from cograin.units.nodes import Nodes
+from cograin.units.unpacked import unpacked
 
 _log = logging.getLogger("cograin")
 _WARNING = 1  # status of a call that was done but for something beside it

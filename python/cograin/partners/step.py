@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from cograin.vector import Vector
+from cograin.base.vector import Vector
 
 #: Which force of a step is exchanged: its mean (impulse over length) or that at its end.
 Force = Literal["mean", "end"]

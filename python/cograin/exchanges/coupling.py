@@ -12,17 +12,17 @@ from typing import Any, Literal
 
 import numpy as np
 
-from cograin import checkpoint as checkpoints
-from cograin import interrupts
-from cograin.exchange import Exchange, Side
-from cograin.identity import differing, digest, identity
-from cograin.interface import TEMPERATURE
-from cograin.partner import Partner
-from cograin.progress import Progress
-from cograin.record import COLUMNS, Record, Row
-from cograin.step import Outcome, Step
-from cograin.unit import StepDiscarded, Unit
-from cograin.vector import Vector, vector
+from cograin.base import interrupts
+from cograin.base.identity import differing, digest, identity
+from cograin.base.vector import Vector, vector
+from cograin.exchanges import checkpoint as checkpoints
+from cograin.exchanges.exchange import Exchange, Side
+from cograin.exchanges.progress import Progress
+from cograin.exchanges.record import COLUMNS, Record, Row
+from cograin.partners.partner import Partner
+from cograin.partners.step import Outcome, Step
+from cograin.units.interface import TEMPERATURE
+from cograin.units.unit import StepDiscarded, Unit
 
 _log = logging.getLogger("cograin")
 

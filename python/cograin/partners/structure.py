@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 from scipy.linalg import cho_factor, cho_solve
 from scipy.sparse.linalg import splu
 
-from cograin.quadratic_step import QuadraticStep
-from cograin.step import Step
-from cograin.vector import Matrix, Vector, closing, is_sparse, solver, vector
+from cograin.base.vector import Matrix, Vector, closing, is_sparse, solver, vector
+from cograin.partners.quadratic_step import QuadraticStep
+from cograin.partners.step import Step
 
 #: What the steps of a structure change.
 _CHANGING = ("position", "velocity", "displacement", "work", "load_work", "loss", "correction", "_apart")

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cograin.rotation import (
+from cograin.base.rotation import (
     after,
     back,
     cross,
@@ -20,9 +20,9 @@ from cograin.rotation import (
     tangent,
     turned,
 )
-from cograin.step import Step
-from cograin.unit import StepDiscarded
-from cograin.vector import Matrix, Vector, closing, vector
+from cograin.base.vector import Matrix, Vector, closing, vector
+from cograin.partners.step import Step
+from cograin.units.unit import StepDiscarded
 
 #: What the steps of a body change, beside its motion.
 _CHANGING = ("rotation", "work", "load_work", "correction", "_attitudes", "displacement")

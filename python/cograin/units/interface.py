@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from cograin import interrupts
-from cograin.rotation import after, quaternion, rotation_vector, secant, tangent, turn
-from cograin.step import Force, Step
-from cograin.unit import State, StepDiscarded, Unit
-from cograin.vector import Matrix, Vector, vector
+from cograin.base import interrupts
+from cograin.base.rotation import after, quaternion, rotation_vector, secant, tangent, turn
+from cograin.base.vector import Matrix, Vector, vector
+from cograin.partners.step import Force, Step
+from cograin.units.unit import State, StepDiscarded, Unit
 
 # What the particles give back for what they are given, by design.
 _ANSWERS = {

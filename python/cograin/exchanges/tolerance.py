@@ -8,7 +8,7 @@ from math import isfinite
 
 import numpy as np
 
-from cograin.vector import Matrix, Vector, closing
+from cograin.base.vector import Matrix, Vector, closing
 
 #: What may be left of the farthest move, where nothing else is said.
 RELATIVE = 1e-6

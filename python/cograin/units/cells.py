@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cograin.vector import Matrix, Vector
+from cograin.base.vector import Matrix, Vector
 
 if TYPE_CHECKING:
-    from cograin.unit import Unit
+    from cograin.units.unit import Unit
 
 
 class Cells:
@@ -81,7 +81,7 @@ class Cells:
 
 def _table(unit: Unit, grid: str) -> Matrix:
     """Numbers of the table of the cells in the resources of a unit."""
-    from cograin.unit import UnitError
+    from cograin.units.unit import UnitError
 
     path = unit.folder / "resources" / f"{grid}.cells.csv"
     if not path.is_file():

@@ -6,7 +6,7 @@ from math import atan2, cos, pi, sin, sqrt
 
 import numpy as np
 
-from cograin.vector import Matrix, Vector
+from cograin.base.vector import Matrix, Vector
 
 
 def quaternion(rotation: Vector) -> Vector:

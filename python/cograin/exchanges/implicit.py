@@ -9,12 +9,12 @@ from typing import Literal
 
 import numpy as np
 
-from cograin import interrupts
-from cograin.exchange import Exchange, Side, Taker
-from cograin.step import Force, Outcome, Step
-from cograin.tolerance import RELATIVE, Tolerance
-from cograin.unit import StepDiscarded
-from cograin.vector import Matrix, Vector, root_of_inverse, vector
+from cograin.base import interrupts
+from cograin.base.vector import Matrix, Vector, root_of_inverse, vector
+from cograin.exchanges.exchange import Exchange, Side, Taker
+from cograin.exchanges.tolerance import RELATIVE, Tolerance
+from cograin.partners.step import Force, Outcome, Step
+from cograin.units.unit import StepDiscarded
 
 #: Trials on both sides of the solution that are nearer than this part of what may be left are as good as one.
 CLOSED = 1e-6

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import fmpy
 
-from cograin.identity import of_file
+from cograin.base.identity import of_file
 
 #: So many files stay unpacked while no instance of them is open.
 KEPT = 8

@@ -7,9 +7,9 @@ from typing import Any, Literal, Protocol, runtime_checkable
 
 import numpy as np
 
-from cograin.step import Step
-from cograin.unit import State, Unit
-from cograin.vector import Matrix, Vector, vector
+from cograin.base.vector import Matrix, Vector, vector
+from cograin.partners.step import Step
+from cograin.units.unit import State, Unit
 
 
 class Partner(Protocol):

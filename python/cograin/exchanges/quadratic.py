@@ -7,10 +7,10 @@ from typing import Any, Protocol, cast
 
 import numpy as np
 
-from cograin.exchange import Exchange, Side, Taker
-from cograin.implicit import Implicit, QuasiNewton
-from cograin.step import Force, Outcome, Step
-from cograin.vector import Matrix, Vector
+from cograin.base.vector import Matrix, Vector
+from cograin.exchanges.exchange import Exchange, Side, Taker
+from cograin.exchanges.implicit import Implicit, QuasiNewton
+from cograin.partners.step import Force, Outcome, Step
 
 
 class QuadraticSide(Side, Protocol):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cograin.vector import Matrix, Vector
+from cograin.base.vector import Matrix, Vector
 
 
 class Mapping:

@@ -8,11 +8,11 @@ import numpy as np
 from scipy.sparse import bmat
 from scipy.sparse.linalg import splu
 
-from cograin.step import Step
-from cograin.vector import Matrix, Vector, solver
+from cograin.base.vector import Matrix, Vector, solver
+from cograin.partners.step import Step
 
 if TYPE_CHECKING:
-    from cograin.structure import Structure
+    from cograin.partners.structure import Structure
 
 
 class QuadraticStep:

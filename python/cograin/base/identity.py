@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-from cograin.vector import is_sparse
+from cograin.base.vector import is_sparse
 
 #: Settings by name: numbers and short texts as they are, everything else as a digest.
 Identity = dict[str, Any]

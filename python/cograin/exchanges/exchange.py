@@ -5,8 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from typing import Any, Protocol
 
-from cograin.step import Force, Outcome, Step
-from cograin.vector import Matrix, Vector
+from cograin.base.vector import Matrix, Vector
+from cograin.partners.step import Force, Outcome, Step
 
 
 class Side(Protocol):
@@ -55,7 +55,7 @@ class Side(Protocol):
 
 
 class Taker(Protocol):
-    """What an exchange needs of a partner: `cograin.partner.Partner`."""
+    """What an exchange needs of a partner: `cograin.partners.partner.Partner`."""
 
     @property
     def displacement(self) -> Vector: ...

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cograin.vector import Matrix, Vector
+from cograin.base.vector import Matrix, Vector
 
 if TYPE_CHECKING:
-    from cograin.unit import Unit
+    from cograin.units.unit import Unit
 
 
 #: Quantities of which a node has one number.
@@ -104,7 +104,7 @@ class Nodes:
 
 def _table(unit: Unit, name: str) -> Matrix:
     """Numbers of a table in the resources of a unit."""
-    from cograin.unit import UnitError
+    from cograin.units.unit import UnitError
 
     path = unit.folder / "resources" / name
     if not path.is_file():

@@ -1,0 +1,1 @@
+"""Numbers, rotations, identities, Ctrl-C: what knows neither units nor partners."""

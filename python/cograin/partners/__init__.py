@@ -1,0 +1,1 @@
+"""The other side of an interface: structures, bodies, heat, another unit."""
