@@ -1,223 +1,10 @@
-//! Clumps in a periodic cell: stress against closed forms, work, motion through the faces, bits.
+//! Dense clumps that are strained, and clumps that fly through the faces.
 
-use crate::support::start;
-use cograin::interface::{Interface, Value};
+use super::scenes::{LAW, STRAINS, dense, strain};
+use crate::support::{DRIVEN, assert_all_near, start};
 use cograin::lanes::Width;
 use cograin::simulation::Simulation;
 use cograin::state::State;
-use cograin::statics::stiffness;
-use cograin_sparse::factorise;
-use std::fmt::Write as _;
-
-/// Spheres of this modulus and Poisson's ratio 0.25.
-const LAW: &str = r#"
-[material.a]
-density = 2500.0
-youngs_modulus = 1e7
-poissons_ratio = 0.25
-[contact.touch.normal.hertz]
-"#;
-
-/// Force between two equal spheres of this radius \[m\] that overlap by so much \[m\] \[N\].
-fn hertz(radius: f64, overlap: f64) -> f64 {
-    let modulus = 1e7 / (2.0 * (1.0 - 0.0625));
-    4.0 / 3.0 * modulus * (0.5 * radius).sqrt() * overlap.powf(1.5)
-}
-
-/// All components of the strain follow inputs.
-const DRIVEN: &str = "motion = { driven = [\"xx\", \"yy\", \"zz\", \"xy\", \"xz\", \"yz\"] }";
-
-/// The strains in the order of the program.
-const STRAINS: [&str; 6] = ["xx", "yy", "zz", "xy", "xz", "yz"];
-
-/// Of a pair of spheres of radius 1 along x: how far each is from the middle, and the other; the edges of its cell along and across.
-const PAIR: [f64; 4] = [0.75, 1.5, 3.46, 1.98];
-
-/// A pair whose mass centre is here in cells of one pair each, so many along each edge; with this law beside that of Hertz.
-fn lattice(counts: [usize; 3], at: [f64; 3], law: &str, pair: &str) -> Simulation {
-    let [_, _, long, wide] = PAIR;
-    let size = [long, wide, wide];
-    let mut list = String::new();
-    for x in 0..counts[0] {
-        for y in 0..counts[1] {
-            for z in 0..counts[2] {
-                let place = [x, y, z].into_iter().zip(size).zip(at).map(|((n, size), at)| n as f64 * size + at);
-                let _ = write!(list, "{{ position = {:?} }},", place.collect::<Vec<_>>());
-            }
-        }
-    }
-    let edge = |axis: usize| counts[axis] as f64 * size[axis];
-    let mut simulation = start(&format!(
-        r#"
-[run]
-step = 1e-4
-{LAW}
-{law}
-[pair.a.a]
-{pair}
-[clump.pair]
-spheres = [{{ position = [-0.75, 0.0, 0.0], radius = 1.0 }}, {{ position = [0.75, 0.0, 0.0], radius = 1.0 }}]
-[particles.p]
-material = "a"
-clump = "pair"
-list = [{list}]
-[cell]
-edges = [[{:?}, 0.0, 0.0], [0.0, {:?}, 0.0], [0.0, 0.0, {:?}]]
-{DRIVEN}
-"#,
-        edge(0),
-        edge(1),
-        edge(2)
-    ));
-    simulation.set_width(Width::widest());
-    simulation
-}
-
-/// Strains a cell at once, in one communication step, by its inputs.
-fn strain(simulation: &mut Simulation, strains: &[(&str, f64)], interval: f64) {
-    let interface = Interface::of(simulation.scene());
-    for (name, value) in strains {
-        let input = interface.find(&format!("cell.strain.{name}")).expect("an input");
-        interface.set(simulation, input, Value::Real(*value)).expect("a strain");
-    }
-    simulation.advance(interval).expect("it runs");
-}
-
-/// Whether numbers are those that are expected.
-#[track_caller]
-fn assert_near(found: &[f64], expected: &[f64], tolerance: f64) {
-    let size = expected.iter().fold(0.0_f64, |most, it| most.max(it.abs()));
-    let near = found.iter().zip(expected).all(|(found, it)| (found - it).abs() <= tolerance * size);
-    assert!(near, "{found:?}, {expected:?} expected");
-}
-
-/// Stress of the lattice of pairs: along x each touches the next with one sphere, along y and z with both; the cell is so sheared.
-fn stress_of_pairs(shear: f64) -> [f64; 6] {
-    let [_, apart, long, wide] = PAIR;
-    let volume = long * wide * wide;
-    let along = hertz(1.0, 2.0 - (long - apart)) * long / volume;
-    let across = hertz(1.0, 2.0 - wide) * wide / volume;
-    // From a sphere to its image along the second edge.
-    let (x, y) = (shear * wide, wide);
-    let length = x.hypot(y);
-    let leaning = hertz(1.0, 2.0 - length) / length / volume;
-    [-along - 2.0 * leaning * x * x, -2.0 * leaning * y * y, -2.0 * across, -2.0 * leaning * x * y, 0.0, 0.0]
-}
-
-#[test]
-fn a_lattice_of_pairs_carries_the_stress_of_its_branches() {
-    // In the middle of the cell, astride one face, astride a corner, and many edges away.
-    for at in [[1.7, 0.99, 0.99], [0.1, 0.99, 0.99], [0.0, 0.0, 0.0], [3.3, 1.9, 0.01], [-33.0, 17.0, 5.0]] {
-        for counts in [[1, 1, 1], [2, 1, 1], [2, 3, 2]] {
-            let mut simulation = lattice(counts, at, "", "restitution = 1.0");
-            assert_near(&simulation.cell_stress(), &stress_of_pairs(0.0), 1e-12);
-            strain(&mut simulation, &[("xy", 0.01)], 1e-4);
-            assert_near(&simulation.cell_stress(), &stress_of_pairs(0.01), 1e-10);
-        }
-    }
-    let simulation = lattice([1, 1, 1], [0.0; 3], "", "restitution = 1.0");
-    // The union of two spheres: their volume less the lens, of two caps of height 1/4.
-    let pi = std::f64::consts::PI;
-    let solid = 8.0 / 3.0 * pi - 2.0 * pi * 0.25_f64.powi(2) * (1.0 - 0.25 / 3.0);
-    let [_, _, long, wide] = PAIR;
-    assert_near(&[simulation.cell_porosity()], &[1.0 - solid / (long * wide * wide)], 1e-12);
-}
-
-#[test]
-fn a_region_of_clumps_carries_the_stress_of_its_branches_and_one_that_spins_freely_none() {
-    let [_, apart, long, wide] = PAIR;
-    let region = |from: [f64; 3]| {
-        let to = [from[0] + long, from[1] + wide, from[2] + wide];
-        format!("[region.all]\nbox = [{from:?}, {to:?}]\n")
-    };
-    for from in [[0.0, 0.0, 0.0], [0.4, 0.3, -7.1]] {
-        let simulation = lattice([1, 1, 1], [1.7, 0.97, 0.95], &region(from), "restitution = 1.0");
-        let carried = cograin::averages::carried(&simulation)[0];
-        let volume = long * wide * wide;
-        let expected = stress_of_pairs(0.0);
-        assert_near(&[0, 1, 2].map(|axis| carried[axis][axis] / volume), &expected[..3], 1e-12);
-    }
-    let mut spinning = start(&format!(
-        "[run]\nstep = 1e-4\n{LAW}\n[pair.a.a]\nrestitution = 1.0\n[clump.pair]\nspheres = [{{ position = [0.0, 0.0, 0.0], \
-         radius = 1.0 }}, {{ position = [{apart:?}, 0.0, 0.0], radius = 0.5 }}]\n[particles.p]\nmaterial = \"a\"\nclump = \"pair\"\n\
-         list = [{{ position = [0.1, 0.2, 0.3], velocity = [0.5, 0.0, 0.0], angular_velocity = [0.0, 3.0, 1.0] }}]\n\
-         [region.all]\nbox = [[-5.0, -5.0, -5.0], [5.0, 5.0, 5.0]]\n"
-    ));
-    spinning.advance(0.01).unwrap();
-    let content = cograin::averages::contents(&spinning)[0];
-    assert_near(&content.velocity, &[0.5, 0.0, 0.0], 1e-12);
-    assert!(content.granular_temperature() < 1e-20, "{}", content.granular_temperature());
-}
-
-#[test]
-fn the_tangent_of_a_lattice_of_pairs_is_the_derivative_of_its_stress() {
-    for counts in [[1, 1, 1], [2, 1, 2]] {
-        let simulation = lattice(
-            counts,
-            [0.1, 0.99, 0.0],
-            "[contact.touch.tangential.history]",
-            "restitution = 1.0\nfriction = 0.5",
-        );
-        let found = stiffness(&simulation, &[], Some(factorise)).expect("a tangent");
-        assert_eq!(found.freedoms, 6 * counts.iter().product::<usize>(), "six for each clump");
-        let matrix = found.cell.expect("a cell").matrix;
-        let stress = |strains: [f64; 3]| {
-            let [_, apart, long, wide] = PAIR;
-            let [a, b, c] =
-                [long, wide, wide].into_iter().zip(strains).map(|(edge, it)| edge * it.exp()).collect::<Vec<_>>()[..]
-            else {
-                panic!("three edges")
-            };
-            let along = hertz(1.0, 2.0 - (a - apart)) / (b * c);
-            [-along, -2.0 * hertz(1.0, 2.0 - b) / (a * c), -2.0 * hertz(1.0, 2.0 - c) / (a * b)]
-        };
-        for component in 0..3 {
-            let at = |way: f64| stress([0, 1, 2].map(|k| if k == component { way } else { 0.0 }));
-            let (there, back) = (at(1e-6), at(-1e-6));
-            let expected: Vec<f64> = there.iter().zip(back).map(|(there, back)| (there - back) / 2e-6).collect();
-            let entries: Vec<f64> = matrix[..3].iter().map(|row| row[component]).collect();
-            assert_near(&entries, &expected, 1e-5);
-        }
-    }
-}
-
-/// Clumps of three spheres and loose ones in a cell, that are pressed together; each at a place and turned as a generator says.
-fn dense(pair: &str, more: &str, shift: [f64; 3], threads: usize) -> String {
-    format!(
-        r#"
-[run]
-step = 5e-6
-threads = {threads}
-{LAW}
-[contact.touch.tangential.history]
-[pair.a.a]
-{pair}
-[clump.bent]
-spheres = [
-    {{ position = [0.0, 0.0, 0.0], radius = 0.002 }},
-    {{ position = [0.003, 0.0, 0.0], radius = 0.002 }},
-    {{ position = [0.003, 0.003, 0.0], radius = 0.0015 }},
-]
-[particles.bent]
-material = "a"
-clump = "bent"
-orientation = "random"
-lattice = {{ kind = "simple_cubic", origin = {:?}, counts = [4, 4, 3], radius = 0.0039, spacing = 0.008 }}
-[particles.loose]
-material = "a"
-lattice = {{ kind = "simple_cubic", origin = {:?}, counts = [7, 7, 1], radius = 0.0019, spacing = 0.0045 }}
-[cell]
-edges = [[0.032, 0.0, 0.0], [0.0, 0.032, 0.0], [0.0, 0.0, 0.028]]
-{DRIVEN}
-[output]
-energy = true
-losses = true
-{more}
-"#,
-        shift,
-        [shift[0], shift[1], shift[2] + 0.022],
-    )
-}
 
 /// With friction and dashpots.
 const ROUGH: &str = "restitution = 0.6\nfriction = 0.4";
@@ -304,8 +91,8 @@ fn clumps_of_one_sphere_do_what_loose_spheres_do() {
     };
     let ((clumps, work), (loose, expected)) = (run(true), run(false));
     // Impacts make roundings larger.
-    assert_near(&clumps, &loose, 1e-6);
-    assert_near(&[work], &[expected], 1e-6);
+    assert_all_near(&clumps, &loose, 1e-6, "velocities");
+    assert_all_near(&[work], &[expected], 1e-6, "work");
 }
 
 #[test]
@@ -346,7 +133,7 @@ fn stress_follows_permuted_axes() {
     let right = run([0, 1, 2]);
     assert!(right.iter().all(|part| part.abs() > 1e-6 * right[0].abs()), "{right:?}");
     for order in [[1, 2, 0], [2, 0, 1], [1, 0, 2]] {
-        assert_near(&run(order), &right, 1e-9);
+        assert_all_near(&run(order), &right, 1e-9, "stress");
     }
 }
 
@@ -361,7 +148,7 @@ fn what_is_written_whole_edges_away_has_the_same_bits_and_a_shift_changes_roundi
     let (stress, velocities, places) = run([0.0; 3]);
     // A shift by which no number is rounded otherwise: the clumps are astride the same faces.
     let (again, _, _) = run([0.011, -0.0203, 0.005]);
-    assert_near(&again, &stress, 1e-6);
+    assert_all_near(&again, &stress, 1e-6, "stress");
     let one = |shift: f64| {
         let at = [0.25 + shift, 1.75, 0.5 - shift];
         let mut simulation = start(&format!(
@@ -421,7 +208,7 @@ fn two_clumps_that_meet_across_a_face_do_what_they_do_in_the_open() {
     let cell = "[cell]\nedges = [[8.0, 0.0, 0.0], [1.0, 8.0, 0.0], [0.5, 1.0, 8.0]]\n";
     for at in [4.0, 8.6, 0.4, 1.9] {
         let (found, turned) = run(cell, at);
-        assert_near(&found, &velocity, 1e-9);
-        assert_near(&turned, &spin, 1e-9);
+        assert_all_near(&found, &velocity, 1e-9, "velocity");
+        assert_all_near(&turned, &spin, 1e-9, "spin");
     }
 }
