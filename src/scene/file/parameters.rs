@@ -1,22 +1,54 @@
-//! Which numbers of a scene's text are parameters of its unit.
+//! Which numbers of a scene's text are parameters of its unit: those of some tables, with unit and range of their keys.
 
-mod rows;
-
-use crate::base::document::Document;
-use crate::base::quantity::Range;
+use super::tables::{DampingTable, FluidTable, MaterialTable, RunTable};
+use crate::base::document::{Document, Key, Table};
+use crate::base::quantity::{NonNegative, Positive, Range};
+use crate::laws::bond::breakage::{mohr_coulomb, stress};
+use crate::laws::bond::damping::{Model, componentwise, opposing};
+use crate::laws::bond::keys::{self as bond, PartKeys};
 use crate::laws::contact::PropertyUnit;
 use crate::scene::{Parameter, SceneDraft, Step};
-use rows::{ROWS, is_of};
+
+/// Tables whose numbers are parameters that are fixed once the unit is initialised, and their keys; `*` stands for a name.
+const TABLES: [(&str, &[Key]); 7] = [
+    ("run", RunTable::KEYS),
+    ("material.*", MaterialTable::KEYS),
+    ("fluid.*", FluidTable::KEYS),
+    ("damping.*", DampingTable::KEYS),
+    ("bond.*", bond::Keys::KEYS),
+    ("bond.*.breakage", stress::Keys::KEYS),
+    ("bond.*.breakage.mohr_coulomb", mohr_coulomb::Keys::KEYS),
+];
+
+/// Of `[run]` these; [`settings`] has others, and the rest is of no use in a unit.
+const OF_RUN: [&str; 2] = ["skin", "max_overlap"];
+
+/// Tables with a number for each part of a bond, which are such parameters, too: range, unit, what the numbers are.
+const PARTS: [(&str, Range, &str, &str); 5] = [
+    (
+        "bond.*.damping.viscous",
+        PartKeys::<NonNegative>::RANGE,
+        "1",
+        "damping of a part of the bond over its critical damping",
+    ),
+    ("bond.*.damping.opposing", <opposing::Opposing as Model>::Keys::RANGE, "1", SHARE),
+    ("bond.*.damping.sign", <componentwise::Sign as Model>::Keys::RANGE, "1", SHARE),
+    ("bond.*.damping.smooth", <componentwise::Smooth as Model>::Keys::RANGE, "1", SHARE),
+    ("bond.*.relaxation", PartKeys::<Positive>::RANGE, "s", "relaxation time of a part of the bond"),
+];
+
+/// What the numbers are in a damping that takes a share.
+const SHARE: &str = "damping of a part of the bond as a share of its load";
 
 /// The parameters of a scene that was read from this text.
 pub(crate) fn of_scene(scene: &SceneDraft, document: &Document) -> Vec<Parameter> {
     let mut all = settings(scene);
     let mut leaves = Vec::new();
-    for table in ["run", "material", "pair", "damping", "bond"] {
+    for table in ["run", "material", "pair", "damping", "bond", "fluid"] {
         find_numbers(document, table, &mut leaves);
     }
     for (name, value) in leaves {
-        all.extend(row(&name, value).or_else(|| property(scene, &name)).or_else(|| strength(scene, &name, value)));
+        all.extend(property(scene, &name).or_else(|| strength(scene, &name, value)).or_else(|| fixed(&name, value)));
     }
     all.retain(|parameter| !is_written_twice(document, &parameter.name));
     all
@@ -30,8 +62,8 @@ fn settings(scene: &SceneDraft) -> Vec<Parameter> {
         Step::Following => (0.0, 0.0),
     };
     let threads = scene.run.threads.unwrap_or(0) as f64;
-    let number = |name: &str, value, unit, range, about: &str| {
-        let (name, about) = (name.to_owned(), about.to_owned());
+    let number = |name: &str, value, unit: Option<&str>, range, about: &str| {
+        let (name, about, unit) = (name.to_owned(), about.to_owned(), unit.map(str::to_owned));
         Parameter { name, value, unit, range, tunable: false, about }
     };
     vec![
@@ -96,11 +128,31 @@ fn is_written_twice(document: &Document, name: &str) -> bool {
     }
 }
 
-/// The parameter of this name, if it is one of the rows.
-fn row(name: &str, value: f64) -> Option<Parameter> {
-    let row = ROWS.iter().find(|row| is_of(name, row.keys))?;
-    let (name, about) = (name.to_owned(), row.about.to_owned());
-    Some(Parameter { name, value, unit: Some(row.unit), range: row.range, tunable: false, about })
+/// The parameter of this name, if it is a number of one of the tables.
+fn fixed(name: &str, value: f64) -> Option<Parameter> {
+    let (table, last) = name.rsplit_once('.')?;
+    let (about, unit, range) = if let Some((_, range, unit, about)) = PARTS.iter().find(|part| is_of(table, part.0)) {
+        ((*about).to_owned(), (*unit).to_owned(), *range)
+    } else {
+        let (_, keys) = TABLES.iter().find(|(pattern, _)| is_of(table, pattern))?;
+        let key = keys.iter().find(|key| key.name == last && (table != "run" || OF_RUN.contains(&last)))?;
+        let (about, unit) = key.meaning();
+        (in_a_phrase(&about), unit, key.range()?)
+    };
+    Some(Parameter { name: name.to_owned(), value, unit: Some(unit), range, tunable: false, about })
+}
+
+/// A sentence as a phrase: without its capital, unless that is a symbol's or of a name (Young's).
+fn in_a_phrase(sentence: &str) -> String {
+    let word = sentence.split(' ').next().unwrap_or_default();
+    let (first, rest) = sentence.split_at(sentence.chars().next().map_or(0, char::len_utf8));
+    if word.chars().count() < 2 || word.contains('\'') { sentence.to_owned() } else { first.to_lowercase() + rest }
+}
+
+/// Whether a name is one of those that a pattern stands for.
+fn is_of(name: &str, pattern: &str) -> bool {
+    let mut pattern = pattern.split('.');
+    name.split('.').all(|part| pattern.next().is_some_and(|key| key == "*" || key == part)) && pattern.next().is_none()
 }
 
 /// The parameter of this name, if it is a property of a material or of two that laws declare.
@@ -120,7 +172,7 @@ fn property(scene: &SceneDraft, name: &str) -> Option<Parameter> {
     };
     let (name, about) = (name.to_owned(), property.about.to_owned());
     let tunable = property.tunable && entry.is_some();
-    Some(Parameter { name, value, unit: Some(unit), range: property.range, tunable, about })
+    Some(Parameter { name, value, unit: Some(unit.to_owned()), range: property.range, tunable, about })
 }
 
 /// The parameter of this name, if it is a strength of a bond law.
@@ -129,7 +181,14 @@ fn strength(scene: &SceneDraft, name: &str, value: f64) -> Option<Parameter> {
     let strengths = scene.bonds[bond].keys.breakage.iter().flat_map(|rule| rule.strengths());
     let (_, unit) = strengths.into_iter().find(|(name, _)| name == key)?;
     let about = format!("strength of bonds: {}", key.replace(['.', '_'], " "));
-    Some(Parameter { name: name.to_owned(), value, unit: Some(unit), range: Range::POSITIVE, tunable: true, about })
+    Some(Parameter {
+        name: name.to_owned(),
+        value,
+        unit: Some(unit.to_owned()),
+        range: Range::POSITIVE,
+        tunable: true,
+        about,
+    })
 }
 
 #[cfg(test)]
@@ -142,11 +201,38 @@ mod tests {
         assert_eq!(refused(&Range::NON_NEGATIVE, -0.1), "expected a number of 0 or above, found -0.1");
         assert_eq!(refused(&Range::PART, 1.0), "expected a number above 0 and below 1, found 1.0");
         assert_eq!(refused(&Range::PART_OR_NONE, 1.0), "expected a number from 0 to below 1, found 1.0");
-        for row in ROWS {
-            let Range { minimum, maximum, .. } = row.range;
-            for bound in minimum.into_iter().chain(maximum) {
-                assert_eq!(row.range.check(bound), Ok(()), "{}", row.keys);
+        let of_keys = TABLES.iter().flat_map(|(_, keys)| keys.iter().filter_map(Key::range));
+        for range in of_keys.chain(PARTS.iter().map(|part| part.1)) {
+            for bound in range.minimum.into_iter().chain(range.maximum) {
+                assert_eq!(range.check(bound), Ok(()));
             }
+        }
+    }
+
+    #[test]
+    fn a_parameter_has_the_unit_and_the_range_of_its_key() {
+        let of = |name: &str| {
+            let found = fixed(name, 1.0)?;
+            Some((found.unit?, found.range.minimum, found.range.maximum))
+        };
+        let least = Some(f64::MIN_POSITIVE);
+        for (name, unit, minimum, maximum) in [
+            ("run.skin", "m", least, None),
+            ("material.glass.density", "kg/m3", least, None),
+            ("material.glass.poissons_ratio", "1", Some(0.0), Some(0.5)),
+            ("material.glass.conductivity", "W/(m.K)", least, None),
+            ("fluid.water.viscosity", "Pa.s", least, None),
+            ("fluid.water.porosity", "1", least, Some(1.0)),
+            ("bond.glue.tangential_stiffness", "Pa/m", Some(0.0), None),
+            ("bond.glue.breakage.friction_angle", "rad", Some(0.0), None),
+            ("bond.glue.damping.viscous.normal_force", "1", Some(0.0), None),
+            ("bond.glue.damping.sign.normal_force", "1", Some(0.0), Some(1.0)),
+            ("bond.glue.relaxation.normal_torque", "s", least, None),
+        ] {
+            assert_eq!(of(name), Some((unit.to_owned(), minimum, maximum)), "{name}");
+        }
+        for name in ["run.end", "material.density", "fluid.water.velocity", "bond.glue.relaxation", "gravity"] {
+            assert_eq!(of(name), None, "{name}");
         }
     }
 }
