@@ -79,27 +79,41 @@ impl Key {
 
 #[cfg(test)]
 impl Key {
-    /// Its line in the documentation, behind these cells.
-    fn line(&self, cells: &str) -> String {
+    /// Its name and its meaning in the documentation.
+    fn told(&self) -> [String; 2] {
         let (name, about) = (self.name.trim_start_matches("r#"), self.about.trim().trim_end_matches('.'));
         let range = self.range().map_or_else(String::new, |range| format!(", {}", range.words()));
-        format!("|{cells} `{name}` | {about}{range} | {} |\n", self.default)
+        [format!("`{name}`"), format!("{about}{range}")]
+    }
+
+    /// Its line in the documentation.
+    fn line(&self) -> String {
+        let [name, meaning] = self.told();
+        format!("| {name} | {meaning} | {} |\n", self.default)
+    }
+
+    /// The same among others in one cell, its default in brackets where it has one.
+    fn phrase(&self) -> String {
+        let [name, meaning] = self.told();
+        let default = if self.default == "required" { String::new() } else { format!(" ({})", self.default) };
+        format!("{name}: {meaning}{default}")
     }
 }
 
 /// The table of the documentation.
 #[cfg(test)]
 pub(crate) fn printed(keys: &[Key]) -> String {
-    let lines: String = keys.iter().map(|key| key.line("")).collect();
+    let lines: String = keys.iter().map(Key::line).collect();
     format!("| key | meaning | default |\n|---|---|---|\n{lines}")
 }
 
-/// The table of the documentation of several tables, each with its name.
+/// The table of the documentation of several tables: a line for each.
 #[cfg(test)]
 pub(crate) fn printed_together(what: &str, tables: &[(&str, &[Key])]) -> String {
-    let lines = |(name, keys): &(&str, &[Key])| -> String {
-        keys.iter().map(|key| key.line(&format!(" `{name}` |"))).collect()
+    let line = |(name, keys): &(&str, &[Key])| {
+        let phrases: Vec<String> = keys.iter().map(Key::phrase).collect();
+        format!("| `{name}` | {} |\n", phrases.join("; "))
     };
-    let lines: String = tables.iter().map(lines).collect();
-    format!("| {what} | key | meaning | default |\n|---|---|---|---|\n{lines}")
+    let lines: String = tables.iter().map(line).collect();
+    format!("| {what} | keys (default) |\n|---|---|\n{lines}")
 }

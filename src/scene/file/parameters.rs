@@ -9,15 +9,17 @@ use crate::laws::bond::keys::{self as bond, PartKeys};
 use crate::laws::contact::PropertyUnit;
 use crate::scene::{Parameter, SceneDraft, Step};
 
-/// Tables whose numbers are parameters that are fixed once the unit is initialised, and their keys; `*` stands for a name.
-const TABLES: [(&str, &[Key]); 7] = [
+/// Tables whose numbers are parameters, in their order, and their keys; `*` stands for a name. What is found here is fixed once the unit is
+/// initialised; laws declare the properties of a pair, rules of breakage the strengths.
+const TABLES: [(&str, &[Key]); 8] = [
     ("run", RunTable::KEYS),
     ("material.*", MaterialTable::KEYS),
-    ("fluid.*", FluidTable::KEYS),
+    ("pair.*.*", &[]),
     ("damping.*", DampingTable::KEYS),
     ("bond.*", bond::Keys::KEYS),
     ("bond.*.breakage", stress::Keys::KEYS),
     ("bond.*.breakage.mohr_coulomb", mohr_coulomb::Keys::KEYS),
+    ("fluid.*", FluidTable::KEYS),
 ];
 
 /// Of `[run]` these; [`settings`] has others, and the rest is of no use in a unit.
@@ -44,7 +46,9 @@ const SHARE: &str = "damping of a part of the bond as a share of its load";
 pub(crate) fn of_scene(scene: &SceneDraft, document: &Document) -> Vec<Parameter> {
     let mut all = settings(scene);
     let mut leaves = Vec::new();
-    for table in ["run", "material", "pair", "damping", "bond", "fluid"] {
+    let mut tables = TABLES.map(|(pattern, _)| pattern.split('.').next().unwrap_or_default()).to_vec();
+    tables.dedup();
+    for table in tables {
         find_numbers(document, table, &mut leaves);
     }
     for (name, value) in leaves {
@@ -233,6 +237,15 @@ mod tests {
         }
         for name in ["run.end", "material.density", "fluid.water.velocity", "bond.glue.relaxation", "gravity"] {
             assert_eq!(of(name), None, "{name}");
+        }
+    }
+    #[test]
+    fn the_numbers_of_a_fluid_are_parameters_of_its_scene() {
+        let text = "[fluid.water]\ndensity = 1000.0\nviscosity = 1.0e-3\n[fluid.water.drag.stokes]\n";
+        let scene: crate::scene::Scene = text.parse().unwrap();
+        for (name, value) in [("fluid.water.density", 1000.0), ("fluid.water.viscosity", 1e-3)] {
+            let found = scene.parameters.iter().find(|parameter| parameter.name == name);
+            assert_eq!(found.map(|parameter| parameter.value), Some(value), "{name}");
         }
     }
 }

@@ -10,7 +10,7 @@ keys! {
     /// Those of [`Distance`], in `[bond.<name>.breakage]`.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Keys {
-        /// The bond breaks if the centres (at a plane: centre and foot of the bond) are further apart than this \[m\].
+        /// Largest distance of the centres, at a plane of centre and foot of the bond \[m\].
         pub max_distance: Positive = "∞",
     }
 }

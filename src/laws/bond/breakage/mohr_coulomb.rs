@@ -11,11 +11,11 @@ keys! {
     /// `[bond.<name>.breakage.mohr_coulomb]`
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Keys {
-        /// c: the bond breaks by `shear` if (σ₁ − σ₃) + (σ₁ + σ₃) sin φ > 2 c cos φ \[Pa\].
+        /// c, with which (σ₁ − σ₃) + (σ₁ + σ₃) sin φ > 2 c cos φ breaks the bond by `shear` \[Pa\].
         pub cohesion: Positive = "required",
-        /// φ: angle of internal friction, below π/2 \[rad\].
+        /// Angle of internal friction φ, below π/2 \[rad\].
         pub friction_angle: NonNegative = "required",
-        /// T: the bond breaks by `tension` if σ₁ > T; T is at most c cot φ \[Pa\].
+        /// Limit T of σ₁, above which the bond breaks by `tension`; at most c cot φ \[Pa\].
         pub tensile_strength: Positive = "required",
     }
 }

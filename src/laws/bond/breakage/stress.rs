@@ -11,15 +11,15 @@ keys! {
     /// Those of [`StressLimits`], in `[bond.<name>.breakage]`.
     #[derive(Clone, Copy, Debug, Default, PartialEq)]
     pub struct Keys {
-        /// S: the bond breaks if σ > S \[Pa\].
+        /// Limit S of σ \[Pa\].
         pub max_normal_stress: Option<Positive> = "∞",
-        /// The bond breaks if τ is above this \[Pa\].
+        /// Limit of τ \[Pa\].
         pub max_shear_stress: Option<Positive> = "∞",
-        /// S of a stretched bond over S of a compressed bond.
+        /// S of a stretched bond over that of a compressed one.
         pub tension_ratio: Option<Positive> = "1",
-        /// φ: compression raises the shear strength by tan φ times the compressive stress, tension lowers it so; below π/2 \[rad\].
+        /// φ, below π/2: the limit of τ rises by tan φ times the compressive stress, and falls so with tension \[rad\].
         pub friction_angle: Option<NonNegative> = "0",
-        /// Whether compression adds to the normal stress: \|N\|/A + bending; otherwise −\|N\|/A + bending (Potyondy & Cundall).
+        /// Whether compression adds \|N\|/A to σ, not −\|N\|/A (Potyondy & Cundall).
         pub compression_breaks: Option<bool> = "`false`; `engine_exact`: `true`",
     }
 }

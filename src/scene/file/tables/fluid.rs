@@ -27,7 +27,7 @@ keys! {
         /// The pressure gradient is an input: `"total"`, or `"dynamic"` without ρ g.
         pub(in crate::scene::file) pressure: Option<Pressure> = "ρ g, no input",
         /// Part of space that the particles leave to it.
-        pub(in crate::scene::file) porosity: Option<Porosity> = "1; `di_felice`, `gidaspow`, `koch_hill`, `beetstra` need it or a grid",
+        pub(in crate::scene::file) porosity: Option<Porosity> = "1; laws of beds need it, or a grid",
         /// Whether it brakes rotation.
         #[serde(default)]
         pub(in crate::scene::file) torque: bool = "`false`",
