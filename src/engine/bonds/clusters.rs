@@ -129,7 +129,7 @@ pub(crate) fn mover(state: &State, slot: u32) -> usize {
 
 /// How many bodies there may be.
 pub(crate) fn bodies(state: &State) -> usize {
-    state.particles.len() + state.boundaries.len() + state.clumps.len()
+    state.particles.len() + state.owners()
 }
 
 #[cfg(test)]

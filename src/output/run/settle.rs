@@ -310,15 +310,12 @@ impl Measure {
     fn ratio(&mut self, simulation: &mut Simulation) -> f64 {
         let Self::Mean { before, time } = self else { return unbalanced_force(simulation) };
         let (now, elapsed) = (velocities(simulation), simulation.time() - *time);
-        let particles = &simulation.state().particles;
+        let state = simulation.state();
         let (mut sum, mut count) = (0.0, 0_usize);
-        let mass = |slot: usize| Some(particles.velocity[slot][3]).filter(|_| particles.owner[slot] == 0);
-        let of_clumps = simulation.state().clumps.velocity.iter().map(|row| Some(row[3]));
-        let masses = particles.slots().map(mass).chain(of_clumps);
-        for ((mass, now), before) in masses.zip(&now).zip(&*before) {
-            if let Some(mass) = mass {
+        for ((grain, now), before) in state.grains().zip(&now).zip(&*before) {
+            if state.is_loose(state.particles.slot[grain.index as usize] as usize) {
                 let change = [0, 1, 2].map(|axis| now[axis] - before[axis]);
-                sum += mass * change.iter().map(|part| part * part).sum::<f64>().sqrt();
+                sum += grain.velocity[3] * change.iter().map(|part| part * part).sum::<f64>().sqrt();
                 count += 1;
             }
         }
@@ -331,11 +328,9 @@ impl Measure {
     }
 }
 
-/// Velocities of the particles in the order of their numbers, then of the clumps \[m/s\].
+/// Velocities of all grains \[m/s\].
 fn velocities(simulation: &Simulation) -> Vec<[f64; 3]> {
-    let particles = &simulation.state().particles;
-    let rows = particles.slots().map(|slot| particles.velocity[slot]);
-    rows.chain(simulation.state().clumps.velocity.iter().copied()).map(|[x, y, z, _]| [x, y, z]).collect()
+    simulation.state().grains().map(|grain| [0, 1, 2].map(|axis| grain.velocity[axis])).collect()
 }
 
 /// The law whose rolling friction makes bodies tremble about rest for ever: its torque changes its sign from step to step.
@@ -437,10 +432,10 @@ fn why_not(simulation: &Simulation) -> String {
 
 /// Unbalanced force over the mean force of the contacts or bonds, damping apart; 0 where nothing moves by the forces on it.
 fn unbalanced_force(simulation: &mut Simulation) -> f64 {
-    let held = simulation.state().particles.owner.iter().all(|owner| *owner != 0);
+    let state = simulation.state();
+    let held = state.particles.slots().all(|slot| !state.is_loose(slot));
     let free = |boundary: &Boundary| boundary.axes.iter().any(AxisMotion::is_free);
-    let nothing_moves = held && simulation.state().clumps.is_empty() && !simulation.scene().boundaries.iter().any(free);
-    if nothing_moves { 0.0 } else { simulation.undamped_unbalanced_force() }
+    if held && !simulation.scene().boundaries.iter().any(free) { 0.0 } else { simulation.undamped_unbalanced_force() }
 }
 
 /// The scene with boundaries that stand still but for their free axes and servos, insertions without a rate, and without books to keep.
