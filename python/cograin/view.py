@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +38,8 @@ from cograin.results import Cloud, Frame, ResultError, Run
 
 #: Directions from which a picture may be seen.
 DIRECTIONS = ("x", "y", "z", "isometric")
+#: Endings of films.
+FILMS = (".gif", ".mp4")
 #: Up to so many particles are drawn as fine spheres.
 FINE = 2000
 
@@ -55,8 +57,9 @@ def scene(
 ) -> Any:
     """A frame of a run: particles, surfaces where they are now, bonds, and the edges of a cell.
 
-    ``by`` is the field that colours the particles; ``names`` are those of its numbers, such as sets. ``chains`` draws
-    normal forces as tubes, the wider the larger, and particles as thin shells (needs ``[output] contacts``).
+    ``by`` is the field that colours the particles; ``names`` are those of its numbers, such as sets, where
+    others are wanted than those of the scene. ``chains`` draws normal forces as tubes, the wider the larger, and
+    particles as thin shells (needs ``[output] contacts``).
     ``facets`` is the field that colours the facets of boundaries, such as ``normal_pressure`` or ``wear_depth`` (needs
     ``[output] boundaries``).
     """
@@ -71,7 +74,7 @@ def scene(
     plotter.set_background("white")
     particles = chosen.particles
     if len(particles):
-        _particles(pyvista, plotter, chosen, particles, by, names or {}, scale, chains)
+        _particles(pyvista, plotter, chosen, particles, by, names, scale, chains)
     _surfaces(pyvista, plotter, chosen, facets)
     if (bonds := chosen.bonds) is not None and len(bonds) and len(particles):
         _tubes(pyvista, plotter, bonds.points.reshape(-1, 2, 3), np.median(particles["radius"]) / 4.0, "#444444")
@@ -98,7 +101,7 @@ def _particles(
     frame: Frame,
     particles: Cloud,
     by: str,
-    names: Mapping[int, str],
+    names: Mapping[int, str] | None,
     scale: Any,
     thin: bool,
 ) -> None:
@@ -115,6 +118,7 @@ def _particles(
     if kinds:
         each = np.unique(found)
         spheres[by] = np.searchsorted(each, spheres[by]).astype(float)
+        names = names or frame.names(by)
         told = {float(place): names.get(int(kind), f"{by} {kind}") for place, kind in enumerate(each)}
         style.update(annotations=told, n_colors=len(each), clim=(-0.5, len(each) - 0.5))
         style["scalar_bar_args"] = {"title": by, "color": "black", "n_labels": 0}
@@ -180,32 +184,51 @@ def _chains(pyvista: Any, plotter: Any, frame: Frame, particles: Cloud) -> None:
 
 
 def film(run: Run, path: str | Path, *, pause: float = 0.1, **named: Any) -> Path:
-    """Writes all frames as an animated GIF, with the same colours and from the same place."""
-    image = needed("PIL.Image", "view")
+    """Writes all frames as a film, .gif or .mp4, with the same colours and from the same place.
+
+    ``pause`` \\[s\\] is how long a frame stands. The extra ``film`` has what writes .mp4.
+    """
+    path = Path(path)
+    if path.suffix == ".mp4":
+        encoder, pictures = needed("imageio_ffmpeg", "film"), _pictures(run, named)
+        first = next(pictures)
+        # Sides are whole multiples of the last number, lest they are changed.
+        stream = encoder.write_frames(str(path), first.shape[1::-1], fps=1.0 / pause, quality=8, macro_block_size=2)
+        stream.send(None)
+        for picture in (first, *pictures):
+            stream.send(np.ascontiguousarray(picture))
+        stream.close()
+    else:
+        image = needed("PIL.Image", "view")
+        first, *others = map(image.fromarray, _pictures(run, named))
+        first.save(path, save_all=True, append_images=others, duration=int(1000 * pause), loop=0)
+    return path
+
+
+def _pictures(run: Run, named: dict[str, Any]) -> Iterator[Any]:
+    """Frame after frame as numbers of pixels, with the same colours and from the same place."""
     by = named.get("by", "velocity")
     frames = run.frames
     filled = [(frame, cloud) for frame in frames if len(cloud := frame.particles)]
     found = [values(frame, cloud, colouring(cloud, by)) for frame, cloud in filled]
     if found and named.get("scale") is None:
-        named["scale"] = scale_of(np.concatenate(found))
-    pictures, camera = [], None
-    for number in range(len(frames)):
+        named = {**named, "scale": scale_of(np.concatenate(found))}
+    camera = None
+    for number in range(max(len(frames), 1)):
         plotter = scene(run, number, **named)
         if camera is not None:
             plotter.camera_position = camera
-        pictures.append(image.fromarray(plotter.screenshot(None, return_img=True)))
+        yield plotter.screenshot(None, return_img=True)
         camera = plotter.camera_position
         plotter.close()
-    pictures[0].save(Path(path), save_all=True, append_images=pictures[1:], duration=int(1000 * pause), loop=0)
-    return Path(path)
 
 
 def save(run: Run, path: str | Path, **named: Any) -> Path:
-    """Writes a picture (.png), a page that one can turn in a browser (.html), or a film of all frames (.gif)."""
+    """Writes a picture (.png), a page that one can turn in a browser (.html), or a film of all frames (.gif, .mp4)."""
     path = Path(path)
-    if path.suffix not in (".png", ".html", ".gif"):
-        raise ResultError(f"{path}: expected a name that ends with .png, .html or .gif")
-    if path.suffix == ".gif":
+    if path.suffix not in (".png", ".html", *FILMS):
+        raise ResultError(f"{path}: expected a name that ends with .png, .html, .gif or .mp4")
+    if path.suffix in FILMS:
         named.pop("frame", None)
         return film(run, path, **named)
     plotter = scene(run, **named)
@@ -223,7 +246,7 @@ def main(words: Iterable[str] | None = None) -> int:
     """The command line."""
     parser = argparse.ArgumentParser(prog="python -m cograin.view", description="Draws a frame of a run in space.")
     parser.add_argument("source", type=Path, metavar="OUT", help="folder of cograin run")
-    parser.add_argument("-o", "--output", type=Path, help=".png, .html or .gif (all frames); default OUT/view.png")
+    parser.add_argument("-o", "--output", type=Path, help=".png, .html, .gif or .mp4 (all frames); default OUT/view.png")
     parser.add_argument("--by", default="velocity", help="what colours the particles (default: velocity)")
     parser.add_argument("--names", nargs="+", metavar="NAME", help="names of sets or materials, in their order")
     parser.add_argument("--frame", type=int, default=-1, help="number of the frame (default: the last)")
