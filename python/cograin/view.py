@@ -246,7 +246,9 @@ def main(words: Iterable[str] | None = None) -> int:
     """The command line."""
     parser = argparse.ArgumentParser(prog="python -m cograin.view", description="Draws a frame of a run in space.")
     parser.add_argument("source", type=Path, metavar="OUT", help="folder of cograin run")
-    parser.add_argument("-o", "--output", type=Path, help=".png, .html, .gif or .mp4 (all frames); default OUT/view.png")
+    parser.add_argument(
+        "-o", "--output", type=Path, help=".png, .html, .gif or .mp4 (all frames); default OUT/view.png"
+    )
     parser.add_argument("--by", default="velocity", help="what colours the particles (default: velocity)")
     parser.add_argument("--names", nargs="+", metavar="NAME", help="names of sets or materials, in their order")
     parser.add_argument("--frame", type=int, default=-1, help="number of the frame (default: the last)")

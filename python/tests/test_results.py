@@ -351,7 +351,7 @@ def test_histories_of_a_run_that_went_on_beyond_its_end_join_as_one_longer_run(p
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE)
     program("run", scene, "-o", tmp_path / "whole")
-    program("run", scene, "-o", tmp_path / "first", "--set", "run.end=0.01")
+    program("run", scene, "-o", tmp_path / "first", "--end", "0.01")
     start = tmp_path / "first" / "checkpoint.cograin"
     program("run", scene, "-o", tmp_path / "second", "--from", start)
     whole, first, second = (Run(tmp_path / name).history for name in ("whole", "first", "second"))

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy
 import pytest
+
 from cograin import Program, ProgramError
 
 ROOT = Path(__file__).resolve().parents[2]
