@@ -340,9 +340,17 @@ def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
         assert (picture.min(axis=1) < 245).mean() > 0.01, "more than the background"
     assert (np.ptp(pictures[0], axis=1) > 60).any(), "sets have colours"
     assert not np.array_equal(pictures[0], pictures[1])
+    glass, metal = drawn("--by", "set"), drawn("--by", "set", "--solid", "floor")
+    assert metal.mean() < glass.mean() - 1.0, "metal is darker than glass"
     assert main([str(folder), "-o", str(tmp_path / "film.gif")]) == 0
     assert image.open(tmp_path / "film.gif").n_frames == len(Run(folder).frames)
-    for words in (["--by", "colour"], ["--facets", "paint"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
+    for words in (
+        ["--by", "colour"],
+        ["--facets", "paint"],
+        ["--solid", "lid"],
+        ["--frame", "99"],
+        ["-o", str(tmp_path / "view.txt")],
+    ):
         assert main([str(folder), *words]) == 2
     assert "expected one of radius" in capsys.readouterr().err
 
