@@ -112,7 +112,7 @@ keys! {
         pub(in crate::scene::file) youngs_modulus: Option<Positive> = "not needed if no law uses it",
         /// Poisson's ratio ν.
         pub(in crate::scene::file) poissons_ratio: Option<PoissonsRatio> = "not needed if no law uses it",
-        /// Conductivity k \[W/(m K)\], see [heat.md](heat.md).
+        /// Conductivity k \[W/(m K)\].
         pub(in crate::scene::file) conductivity: Option<Positive> = "not needed if no heat model uses it",
         /// Specific heat c \[J/(kg K)\].
         pub(in crate::scene::file) specific_heat: Option<Positive> = "not needed where no heat flows",
@@ -161,9 +161,9 @@ keys! {
     pub(in crate::scene::file) struct DampingTable {
         /// A choice of particles.
         pub(in crate::scene::file) particles: Option<Selection> = "all, those that come later included",
-        /// Fraction of the force.
+        /// Fraction of the unbalanced force.
         pub(in crate::scene::file) linear: Fraction = "required",
-        /// Fraction of the torque.
+        /// Fraction of the unbalanced torque.
         pub(in crate::scene::file) angular: Fraction = "required",
         /// A factor on both, particle by particle, see below.
         pub(in crate::scene::file) scale: Option<ScaleTable> = "1",
