@@ -4,8 +4,13 @@ use super::helpers::Threads;
 use std::sync::Arc;
 use std::thread::{Builder, JoinHandle};
 
-/// Fewer particles than this are not worth a second thread.
+/// Fewer particles than this are not worth a second thread (`docs/decisions/361`).
 const FEW: usize = 2000;
+
+/// Whether so many particles are worth helpers.
+pub(crate) fn are_many(particles: usize) -> bool {
+    particles >= FEW
+}
 
 /// Threads of its own, so that two simulations in one process do not disturb each other; joined when dropped.
 #[derive(Default)]
@@ -64,7 +69,7 @@ impl Workers {
     /// As many threads as asked for, or as the machine offers; one for a few particles.
     pub(crate) fn new(threads: Option<usize>, particles: usize) -> Self {
         let offered = || std::thread::available_parallelism().map_or(1, usize::from);
-        if particles < FEW {
+        if !are_many(particles) {
             return Self::default();
         }
         let threads = threads.filter(|&threads| threads > 0).unwrap_or_else(offered);
