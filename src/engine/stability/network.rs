@@ -138,6 +138,8 @@ pub(crate) struct Network<'a> {
     pub(super) groups: Arc<[Option<Group>]>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
+    /// The bodies at the ends of each, as [`Self::mover`] tells them; [`UNMOVED`] for what does not move.
+    pub(super) bodies: Vec<[u32; 2]>,
     /// Their springs.
     pub(super) stiffness: Parts,
     /// Their dashpots.
@@ -164,6 +166,7 @@ impl<'a> Network<'a> {
             roots: (0..particles.len()).map(root).collect(),
             groups: groups.into(),
             elements: Vec::new(),
+            bodies: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
         }
@@ -182,6 +185,7 @@ impl<'a> Network<'a> {
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
         let most = most_links(state);
         network.elements.reserve(most);
+        network.bodies.reserve(most);
         for pass in passes {
             pass.stiffness(state, ahead, context, &mut |link| network.add(&link, most));
         }
@@ -192,10 +196,7 @@ impl<'a> Network<'a> {
     /// Adds the springs of bodies to the ground, axis by axis.
     fn add_supports(&mut self, bodies: &[Option<RigidBody>]) {
         for (element, stiffness) in self.supports(bodies) {
-            let most = self.elements.len() + 1;
-            self.stiffness.push(stiffness, self.elements.len(), most);
-            self.damping.push([0.0; 4], self.elements.len(), most);
-            self.elements.push(element);
+            self.push(element, [stiffness, [0.0; 4]], self.elements.len() + 1);
         }
     }
 
@@ -233,21 +234,20 @@ impl<'a> Network<'a> {
             roots: Arc::clone(&self.roots),
             groups: Arc::clone(&self.groups),
             elements: Vec::new(),
+            bodies: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
         };
-        for (place, element) in self.elements.iter().enumerate() {
-            let inside = element.slots.map(|slot| self.mover(slot).is_some_and(|mover| chosen[mover]));
+        for (place, (element, bodies)) in self.elements.iter().zip(&self.bodies).enumerate() {
+            let inside = bodies.map(|body| body != UNMOVED && chosen[body as usize]);
             let (taken, factor) = match inside {
                 [false, false] => continue,
                 [true, true] => (*element, 1.0),
                 [true, false] => (element.end(0, self.roots.len()), borne(place, 0)),
                 [false, true] => (element.end(1, self.roots.len()), borne(place, 1)),
             };
-            let most = part.elements.len() + 1;
-            part.stiffness.push(self.stiffness.of(place).map(|it| factor * it), part.elements.len(), most);
-            part.damping.push(self.damping.of(place).map(|it| factor * it), part.elements.len(), most);
-            part.elements.push(taken);
+            let parts = [&self.stiffness, &self.damping].map(|parts| parts.of(place).map(|it| factor * it));
+            part.push(taken, parts, part.elements.len() + 1);
         }
         part
     }
@@ -255,11 +255,19 @@ impl<'a> Network<'a> {
     /// Adds an interaction, unless nothing moves by it.
     fn add(&mut self, link: &Link, most: usize) {
         for link in self.with_itself(link).iter().flatten() {
-            let Some(element) = self.element(link) else { continue };
-            self.stiffness.push(link.stiffness, self.elements.len(), most);
-            self.damping.push(link.damping, self.elements.len(), most);
-            self.elements.push(element);
+            if let Some(element) = self.element(link) {
+                self.push(element, [link.stiffness, link.damping], most);
+            }
         }
+    }
+
+    /// Adds an element with its springs and dashpots; in all there are at most `most`.
+    fn push(&mut self, element: Element, [stiffness, damping]: [[f64; 4]; 2], most: usize) {
+        let before = self.elements.len();
+        self.stiffness.push(stiffness, before, most);
+        self.damping.push(damping, before, most);
+        self.bodies.push(element.slots.map(|slot| self.mover(slot).map_or(UNMOVED, |mover| mover as u32)));
+        self.elements.push(element);
     }
 
     /// Whether any interaction has a dashpot.
