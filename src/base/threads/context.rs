@@ -55,6 +55,19 @@ impl Context<'_> {
         self.tell(LoopEvent::End);
     }
 
+    /// Does something with each of these, piece by piece: whichever thread does, with the same bits.
+    pub(crate) fn update<T: Send>(&self, items: &mut [T], work: impl Fn(usize, &mut T) + Sync + Send) {
+        let count = items.len();
+        let items = Shared::new(items);
+        self.each(count.div_ceil(CHUNK), |piece| {
+            let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
+            // SAFETY: pieces do not overlap.
+            for (number, item) in (from..).zip(unsafe { items.part(from, to) }) {
+                work(number, item);
+            }
+        });
+    }
+
     /// Does slabs 0 to `count` − 1 of the work: those of even number in any order, each of odd number when both its
     /// neighbours are done. What two neighbours add to one place thus always comes in the same order, and what is
     /// near in space is near in time.

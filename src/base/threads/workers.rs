@@ -1,6 +1,8 @@
 //! The threads of one simulation.
 
 use super::helpers::Threads;
+use std::cell::Cell;
+use std::marker::PhantomData;
 use std::sync::Arc;
 use std::thread::{Builder, JoinHandle};
 
@@ -17,6 +19,8 @@ pub(crate) fn are_many(particles: usize) -> bool {
 pub(crate) struct Workers {
     /// The helpers; none where one thread works.
     helpers: Option<Helpers>,
+    /// They work for one thread at a time: two may not share this.
+    alone: PhantomData<Cell<()>>,
 }
 
 /// The first thread's helpers.
@@ -73,7 +77,7 @@ impl Workers {
             return Self::default();
         }
         let threads = threads.filter(|&threads| threads > 0).unwrap_or_else(offered);
-        Self { helpers: if threads < 2 { None } else { Helpers::start(threads) } }
+        Self { helpers: if threads < 2 { None } else { Helpers::start(threads) }, alone: PhantomData }
     }
 
     /// How many threads work.
@@ -87,6 +91,11 @@ impl Workers {
         if self.helpers.as_ref().is_some_and(|helpers| !helpers.are_here()) {
             self.helpers = Helpers::start(self.count());
         }
-        work(self.helpers.as_ref().map(|helpers| &*helpers.threads))
+        self.lend(work)
+    }
+
+    /// The same, where helpers that another process has are not started anew. Work calls no other work of the same helpers.
+    pub(crate) fn lend<T>(&self, work: impl FnOnce(Option<&Threads>) -> T) -> T {
+        work(self.helpers.as_ref().filter(|helpers| helpers.are_here()).map(|helpers| &*helpers.threads))
     }
 }
