@@ -10,7 +10,7 @@ mod shell;
 use chart::ChartArguments;
 use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
-use cograin::export::{PackageError, export, find_libraries};
+use cograin::export::{Libraries, PackageError, export, find_libraries};
 use cograin::interface::Standard;
 use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, OutputError, claim_file, refuse_to_replace};
@@ -186,6 +186,9 @@ struct ExportArguments {
     /// The unit's library, if it is not in the folder of this program; may be given several times, once for each platform
     #[arg(long = "library", value_name = "FILE")]
     libraries: Vec<PathBuf>,
+    /// Carry the library for this platform, such as linux64 or win64; may be given several times; default: all that there are
+    #[arg(long = "platform", value_name = "NAME")]
+    platforms: Vec<String>,
     /// Replace the file if it is there
     #[arg(long)]
     overwrite: bool,
@@ -474,8 +477,9 @@ fn package(models: &Models, library: &str, arguments: &ExportArguments, quiet: b
     claim(&read).map_err(Ending::refused)?;
     let named = !arguments.libraries.is_empty();
     let not = |error| if named { Ending::refused(error) } else { Ending::failed(error) };
-    let libraries = find_libraries(library, &arguments.libraries).map_err(not)?;
-    read.extend_from_slice(&libraries);
+    let paths = find_libraries(library, &arguments.libraries).map_err(not)?;
+    read.extend_from_slice(&paths);
+    let libraries = Libraries { paths, platforms: arguments.platforms.clone() };
     claim(&read).map_err(Ending::refused)?;
     let begun = match &arguments.from {
         Some(path) => {

@@ -2,13 +2,16 @@
 
 import base64
 import re
+import sys
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from conftest import DROP, ROOT
 
 from cograin import Interface, Oscillator, Secant, couple
-from cograin.results import ResultError, Run, joined, read_frame, read_image, read_table, unit_of
+from cograin.results import ResultError, Run, Table, joined, read_frame, read_image, read_table, unit_of
 
 SCENE = """
 gravity = [0.0, 0.0, -9.81]
@@ -337,9 +340,17 @@ def test_a_frame_is_drawn_in_space(folder, tmp_path, capsys):
         assert (picture.min(axis=1) < 245).mean() > 0.01, "more than the background"
     assert (np.ptp(pictures[0], axis=1) > 60).any(), "sets have colours"
     assert not np.array_equal(pictures[0], pictures[1])
+    glass, metal = drawn("--by", "set"), drawn("--by", "set", "--solid", "floor")
+    assert metal.mean() < glass.mean() - 1.0, "metal is darker than glass"
     assert main([str(folder), "-o", str(tmp_path / "film.gif")]) == 0
     assert image.open(tmp_path / "film.gif").n_frames == len(Run(folder).frames)
-    for words in (["--by", "colour"], ["--facets", "paint"], ["--frame", "99"], ["-o", str(tmp_path / "view.txt")]):
+    for words in (
+        ["--by", "colour"],
+        ["--facets", "paint"],
+        ["--solid", "lid"],
+        ["--frame", "99"],
+        ["-o", str(tmp_path / "view.txt")],
+    ):
         assert main([str(folder), *words]) == 2
     assert "expected one of radius" in capsys.readouterr().err
 
@@ -348,7 +359,7 @@ def test_histories_of_a_run_that_went_on_beyond_its_end_join_as_one_longer_run(p
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE)
     program("run", scene, "-o", tmp_path / "whole")
-    program("run", scene, "-o", tmp_path / "first", "--set", "run.end=0.01")
+    program("run", scene, "-o", tmp_path / "first", "--end", "0.01")
     start = tmp_path / "first" / "checkpoint.cograin"
     program("run", scene, "-o", tmp_path / "second", "--from", start)
     whole, first, second = (Run(tmp_path / name).history for name in ("whole", "first", "second"))
@@ -357,8 +368,48 @@ def test_histories_of_a_run_that_went_on_beyond_its_end_join_as_one_longer_run(p
     for name in whole:
         assert np.allclose(found[name], whole[name], rtol=1e-9, atol=1e-12 * np.abs(whole[name]).max()), name
     assert found.unit_of("support") == "N"
-    with pytest.raises(ResultError, match=r"begins at a time of the one before, up to 0\.02 s, found 0 s"):
+    with pytest.raises(ResultError, match=r"begins at a time of the one before, up to 0\.02 s, or .*, found 0 s"):
         joined(second, first)
+    # What resumes begins with the next row and counts on: the same bits.
+    program("run", scene, "-o", tmp_path / "rest", "--resume", start, "--end", "0.02")
+    rest = Run(tmp_path / "rest").history
+    told = joined(first, rest)
+    assert all(np.array_equal(told[name], whole[name]) for name in whole)
+    late = Table({name: rest[name][1:] for name in rest})
+    with pytest.raises(ResultError, match="or with the row after it"):
+        joined(first, late)
+
+
+def test_a_film_is_written_frame_by_frame(folder, tmp_path, monkeypatch):
+    pytest.importorskip("pyvista")
+    from cograin.view import save
+
+    got = []
+
+    def write_frames(path, size, *, fps, quality, macro_block_size):
+        got.append((path, tuple(size), fps))
+        assert all(side % macro_block_size == 0 for side in size), "a side that is no multiple is scaled"
+        while True:
+            picture = yield
+            assert picture.shape == (size[1], size[0], 3) and picture.flags["C_CONTIGUOUS"]
+            got.append(picture)
+
+    # The encoder itself is large, and no part of the environment of the tests.
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", SimpleNamespace(write_frames=write_frames))
+    path = save(Run(folder), tmp_path / "film.mp4", by="set", pause=0.25)
+    assert got[0] == (str(path), (1200, 900), 4.0) and len(got) == 1 + len(Run(folder).frames)
+
+
+def test_frames_name_what_they_number(folder):
+    frame = Run(folder).frames[-1]
+    assert frame.names("set") == {0: "left", 1: "right"} and frame.names("material") == {0: "s"}
+    assert frame.names("boundary") == frame.names("group") == {0: "floor"} and frame.names("radius") == {}
+    pytest.importorskip("matplotlib")
+    from cograin.plot import packing
+
+    told = [text.get_text() for text in packing(frame, "set").axes[0].get_legend().get_texts()]
+    assert told == ["left", "right"]
+    assert replace(frame, folder=frame.folder / "elsewhere").names("set") == {}
 
 
 def test_a_section_of_a_grid_shows_the_cells_that_a_plane_cuts(falling):

@@ -1,6 +1,8 @@
 """One wheel brings the command, the library of units and the Python package, and needs nothing else of this tree."""
 
 import os
+import platform
+import re
 import subprocess
 import sys
 import zipfile
@@ -8,6 +10,8 @@ from pathlib import Path
 
 import numpy
 import pytest
+
+from cograin import Program, ProgramError
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -67,6 +71,42 @@ def test_the_command_makes_units_without_anything_else(environment, tmp_path):
     cograin("new", "drop")
     cograin("export", "drop/scene.toml", "-o", "drop.fmu")
     assert (tmp_path / "drop.fmu").stat().st_size > 100_000
+
+
+def test_a_wheel_with_libraries_of_several_platforms_makes_units_for_all_of_them(program, tmp_path):
+    own = Path(program.path).resolve().parent / "libcograin_fmu.so"
+    if not own.is_file() or platform.machine() != "x86_64":
+        pytest.skip("the header below is that of Linux on x86-64")
+    # The same code with the number of another processor in its header (ELF: two bytes at 18; 183 is AArch64).
+    other = bytearray(own.read_bytes())
+    other[18:20] = (183).to_bytes(2, "little")
+    for folder, library in (("x86_64-linux", own.read_bytes()), ("aarch64-linux", bytes(other))):
+        (tmp_path / "made" / folder).mkdir(parents=True)
+        (tmp_path / "made" / folder / own.name).write_bytes(library)
+    words = [f"program={program.path}", f"libraries={tmp_path / 'made'}"]
+    backend = [sys.executable, ROOT / "tools/build/backend.py", tmp_path, *words]
+    wheel = tmp_path / subprocess.run(backend, check=True, capture_output=True, text=True).stdout.strip()
+    # What pip does with programs and data: their folders go to bin and to the root of an environment.
+    with zipfile.ZipFile(wheel) as archive:
+        for name in archive.namelist():
+            if found := re.fullmatch(r"cograin-[^/]*\.data/(scripts|data)/(.*)", name):
+                path = tmp_path / "env" / ("bin" if found[1] == "scripts" else "") / found[2]
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(archive.read(name))
+                path.chmod(0o755)
+    command = Program(tmp_path / "env" / "bin" / "cograin")
+    command("new", "drop", "-o", tmp_path / "drop")
+    scene, unit = tmp_path / "drop" / "scene.toml", tmp_path / "drop.fmu"
+    for words, folders in (
+        ([], {"linux64", "aarch64-linux"}),
+        (["--fmi", "3", "--platform", "linux64"], {"x86_64-linux"}),
+    ):
+        command("export", scene, "-o", unit, "--overwrite", *words)
+        with zipfile.ZipFile(unit) as archive:
+            found = {name.split("/")[1] for name in archive.namelist() if name.startswith("binaries/")}
+        assert found == folders, words
+    with pytest.raises(ProgramError, match=r"\(aarch64-linux, linux64\), found win64"):
+        command.export(scene, unit, platforms=["win64"])
 
 
 def test_the_package_finds_the_command_that_came_with_it(environment, tmp_path):

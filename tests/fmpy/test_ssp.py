@@ -8,6 +8,7 @@ from cograin.ssp import save_ssp
 from conftest import ROOT
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
+from test_importers import linked_ecospy
 
 STEP, STEPS = 1e-3, 60
 #: A loaded piston leads that of a shaft, whose grains press back on it.
@@ -46,6 +47,23 @@ def test_fmpy_validates_and_simulates_a_system_with_the_bits_of_its_units(unit, 
     rows = list(zip(*(found[name].tolist() for name in names), strict=True))
     assert rows == by_hand(units, friction)
     assert rows != by_hand(units, {"shaft.pair.grain.grain.friction": 0.5}), "the parameter acts"
+
+
+def test_another_importer_opens_a_system_and_gets_the_bits_of_its_units(unit, tmp_path):
+    # ecospy leaves out values of parameters that are bound at the system, so the system has none.
+    ecospy = linked_ecospy()
+    units = {"load": unit("piston_load"), "shaft": unit("piston")}
+    path = save_ssp(tmp_path / "pair.ssp", units, CONNECTIONS)
+    names = ("load::piston.displacement.z", "shaft::piston.force.z", "shaft::piston.work")
+    with ecospy.EcosSimulation(step_size=STEP, ssp_path=str(path)) as simulation:
+        simulation.init()
+        rows = []
+        for _ in range(STEPS):
+            simulation.step(1)
+            rows.append(tuple(simulation.get_real(name) for name in names))
+        simulation.terminate()
+    # The value that the parameter has by itself.
+    assert rows == by_hand(units, {"shaft.pair.grain.grain.friction": 0.4})
 
 
 def test_free_inputs_are_inputs_of_the_system(unit, tmp_path):

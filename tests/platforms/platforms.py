@@ -1,164 +1,174 @@
 """Steps every library of a unit that this machine can run, and compares them digit by digit.
 
-    python tests/platforms/platforms.py UNIT.fmu [--compiler "python -m ziglang cc"]
+    python tests/platforms/platforms.py UNIT.fmu [--programs FOLDER --scene SCENE] [--compiler "python -m ziglang cc"]
 
-The library for Linux runs in a small host written in C, the one for Windows in the same host under Wine. Both repeat
-the experiment that the unit carries and get its numbers; then every displacement swings by a thousandth of its usual
-magnitude, and they get the same numbers as each other. Nothing but Python, a C compiler and, for Windows, Wine is
-needed: where Wine or a compiler for Windows is missing, that is said and the library is left out. Not in CI.
+A small host written in C steps the library for Linux, under QEMU that for Linux on Arm, and under Wine that for
+Windows. All repeat the experiment that a unit of FMI 2.0 carries and get its numbers; then every displacement swings by
+a thousandth of its usual magnitude, and they get the same numbers as each other. `--programs` names a folder with the
+command for each platform, in a folder of its own: all run the scene, and leave the same bytes. What a platform lacks
+(Wine, QEMU, a compiler) is said, and the platform left out. Not in CI.
 """
 
 import argparse
-import csv
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
-import zipfile
 from pathlib import Path
-from xml.etree import ElementTree
+
+from units import Unit, differences
 
 HERE = Path(__file__).parent
-EXPERIMENT = "extra/org.fmi-standard.fmi-ls-ref"
-#: Communication steps of the swing, and how long it takes to come back.
-STEPS, PERIOD = 40, 8
+
+
+class Platform:
+    """A kind of machine: its names, what compiles C for it here, and what runs its programs."""
+
+    def __init__(self, name, folder, compiler, runner=()):
+        self.name = name  # as FMI 3.0 and zig have it
+        self.folder = folder  # in a unit of FMI 2.0
+        self.compiler = [compiler]
+        self.runner = list(runner)
+        self.windows = name.endswith("windows")
+
+    def missing(self):
+        """What must be installed to run its programs, if anything."""
+        return next((it for it in [*self.runner[:1], self.compiler[0]] if not shutil.which(it)), None)
+
+    def path(self, path):
+        """A path as its programs have it: Wine shows the root as Z:."""
+        return "Z:" + str(path).replace("/", "\\") if self.windows else str(path)
+
+    def run(self, program, *words, **options):
+        """Runs a program of the platform; ends where it fails."""
+        # Wine's own library comes first, where it has one.
+        environment = {**os.environ, "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "bcryptprimitives=b,n"}
+        command = [*self.runner, str(program), *map(str, words)]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, check=False, **options)
+        if done.returncode:
+            raise SystemExit(f"{' '.join(command)}: ended with {done.returncode}: {done.stderr.strip()}")
+        return done.stdout
+
+
+PLATFORMS = [
+    Platform("x86_64-linux", "linux64", "cc"),
+    Platform(
+        "aarch64-linux", "aarch64-linux", "aarch64-linux-gnu-gcc", ["qemu-aarch64", "-L", "/usr/aarch64-linux-gnu"]
+    ),
+    Platform("x86_64-windows", "win64", "x86_64-w64-mingw32-gcc", ["wine"]),
+]
+
+
+def usable(compiler):
+    """The platforms whose programs can be run here."""
+    for platform in PLATFORMS:
+        if compiler:
+            platform.compiler = [*compiler, "-target", f"{platform.name}-gnu"]
+        if missing := platform.missing():
+            print(f"{platform.name}: {missing} not found; left out")
+        else:
+            yield platform
 
 
 class Host:
-    """The host for one platform: how it is compiled, and how it is run."""
+    """The host for one platform, compiled."""
 
-    def __init__(self, folder, platform, compiler):
-        self.windows = platform == "win64"
-        self.program = folder / ("host.exe" if self.windows else "host")
-        options = ["-O1", "-o", self.program, HERE / "host.c", *([] if self.windows else ["-ldl"])]
-        subprocess.run([*compiler, *options], check=True)
-        if self.windows:
-            stub = ["-shared", "-o", folder / "bcryptprimitives.dll", HERE / "bcryptprimitives.c", "-ladvapi32"]
-            subprocess.run([*compiler, *stub], check=True)
+    def __init__(self, folder, platform):
+        self.platform = platform
+        self.folder = folder / platform.name
+        self.folder.mkdir()
+        self.program = self.folder / ("host.exe" if platform.windows else "host")
+        self.compile("-O1", "-o", self.program, HERE / "host.c", *([] if platform.windows else ["-ldl"]))
+        if platform.windows:
+            stub = self.folder / "bcryptprimitives.dll"
+            self.compile("-shared", "-o", stub, HERE / "bcryptprimitives.c", "-ladvapi32")
 
-    def run(self, unit, course):
+    def compile(self, *words):
+        """Calls the compiler."""
+        subprocess.run([*self.platform.compiler, *words], check=True)
+
+    def step(self, unit, library, course):
         """Rows of outputs, as texts."""
-        library = next((unit.folder / "binaries" / ("win64" if self.windows else "linux64")).iterdir())
-        # Wine shows the root as Z:.
-        resources = ("file:///Z:" if self.windows else "file://") + str(unit.folder / "resources")
-        command = [*(["wine"] if self.windows else []), self.program, library, resources, unit.guid]
-        # Wine's own library comes first, where it has one.
-        environment = {**os.environ, "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "bcryptprimitives=b,n"}
-        words = list(map(str, command))
-        done = subprocess.run(words, input=course, capture_output=True, text=True, env=environment, check=False)
-        if done.returncode:
-            raise SystemExit(f"{library}: ended with {done.returncode}: {done.stderr.strip()}")
-        return [line.split(",") for line in done.stdout.split()]
+        path = self.platform.path
+        address = "file://" + str(unit.folder / "resources")
+        if self.platform.windows:
+            address = "file:///Z:" + str(unit.folder / "resources")
+        # FMI 3.0 takes a path that ends with a separator.
+        resources = address if unit.edition == 2 else path(f"{unit.folder / 'resources'}/")
+        words = [unit.edition, path(library), resources, unit.token]
+        return [line.split(",") for line in self.platform.run(self.program, *words, input=course).split()]
 
 
-class Unit:
-    """What its description says."""
-
-    def __init__(self, path, folder):
-        self.folder = folder
-        with zipfile.ZipFile(path) as archive:
-            archive.extractall(folder)
-        description = ElementTree.parse(folder / "modelDescription.xml").getroot()
-        self.guid = description.get("guid")
-        reals = [it for it in description.iter("ScalarVariable") if it.find("Real") is not None]
-        self.inputs = [it for it in reals if it.get("causality") == "input"]
-        self.outputs = [it for it in reals if it.get("causality") == "output"]
-        with (folder / EXPERIMENT / "results.csv").open() as text:
-            self.results = list(csv.DictReader(text))
-
-    def course(self, length, rows):
-        """The text for the host."""
-        references = [it.get("valueReference") for it in self.inputs + self.outputs]
-        values = [value for row in rows for value in row]
-        head = [len(self.inputs), len(self.outputs), len(rows) - 1, repr(length)]
-        return " ".join(map(str, [*head, *references, *values]))
-
-    def at_rest(self):
-        """The experiment that the unit carries."""
-        with (self.folder / EXPERIMENT / "inputs.csv").open() as text:
-            rows = list(csv.DictReader(text))
-        names = [it.get("name") for it in self.inputs]
-        return self.course(self.length, [[row[name] for name in names] for row in rows])
-
-    def swing(self):
-        """Every displacement goes to and fro by a thousandth of its usual magnitude; other inputs stay."""
-        rows = []
-        for step in range(STEPS + 1):
-            share = (PERIOD / 2 - abs(step % PERIOD - PERIOD / 2)) / (PERIOD / 2)
-            rows.append([repr(self.start(it) + share * self.reach(it)) for it in self.inputs])
-        return self.course(self.length, rows)
-
-    @property
-    def length(self):
-        """Length of a communication step [s]."""
-        return float(self.results[1]["time"])
-
-    @staticmethod
-    def start(variable):
-        """Its start value."""
-        return float(variable.find("Real").get("start"))
-
-    @staticmethod
-    def reach(variable):
-        """How far it swings."""
-        moved = ".displacement." in variable.get("name")
-        return 0.001 * float(variable.find("Real").get("nominal", 0.0)) if moved else 0.0
+def step_all(unit, hosts):
+    """Steps the libraries of a unit; says for each what it found, and whether any differs."""
+    failed, first = False, None
+    for host in hosts:
+        name = host.platform.name if unit.edition == 3 else host.platform.folder
+        if not (unit.folder / "binaries" / name).is_dir():
+            print(f"{unit.path.name}: no library for {name}")
+            continue
+        library = next((unit.folder / "binaries" / name).iterdir())
+        rows = host.step(unit, library, unit.swing())
+        first = first or rows
+        found = differences(unit.columns, first, rows)
+        if not found and unit.results:
+            # The experiment leaves out the nodes of meshes.
+            kept = [(place, column) for place, column in enumerate(unit.columns) if column in unit.results[0]]
+            expected = [[row[column] for _, column in kept] for row in unit.results]
+            rest = [[row[place] for place, _ in kept] for row in host.step(unit, library, unit.at_rest())]
+            found = differences([column for _, column in kept], expected, rest)
+        failed = failed or found is not None
+        forces = [place for place, column in enumerate(unit.columns) if "force" in column]
+        largest = max(forces, key=lambda place: abs(float(rows[-1][place])), default=1)
+        end = f"{unit.columns[largest]} {rows[-1][largest]} at the end"
+        same = f"same digits in {len(unit.columns)} columns and {len(rows)} rows, {end}"
+        print(f"{unit.path.name}, {name}: {found or same}", flush=True)
+    return failed
 
 
-def differences(names, ours, theirs):
-    """The first place where two lists of rows part, in words; nothing where they are the same."""
-    for step, (one, other) in enumerate(zip(ours, theirs, strict=True)):
-        for name, value, found in zip(names, one, other, strict=True):
-            if float(value) != float(found):
-                return f"step {step}, {name}: expected {value}, found {found}"
-    return None
-
-
-def compilers(given):
-    """A command of each platform that can be run here."""
-    usable = {}
-    if sys.platform.startswith("linux"):
-        usable["linux64"] = given or [next((name for name in ("cc", "gcc", "clang") if shutil.which(name)), "cc")]
-    for_windows = [*given, "-target", "x86_64-windows-gnu"] if given else ["x86_64-w64-mingw32-gcc"]
-    for needed in ("wine", for_windows[0]):
-        if not shutil.which(needed):
-            print(f"{needed}: not found; libraries for Windows are not stepped")
-            return usable
-    usable["win64"] = for_windows
-    return usable
+def run_all(programs, scene, hosts):
+    """Runs a scene with the command of each platform; says which files differ, and whether any does."""
+    failed, first = False, None
+    for host in hosts:
+        platform = host.platform
+        program = programs / platform.name / ("cograin.exe" if platform.windows else "cograin")
+        if not program.is_file():
+            print(f"{program}: not there; left out")
+            continue
+        # Windows looks for libraries beside the program.
+        own = Path(shutil.copy(program, host.folder))
+        out = host.folder / "out"
+        platform.run(own, "run", platform.path(scene), "-o", platform.path(out), "--quiet")
+        # The summary has wall times.
+        files = {path.name: path.read_bytes() for path in sorted(out.iterdir()) if path.name != "summary.json"}
+        first = files if first is None else first
+        other = sorted(name for name in {**first, **files} if first.get(name) != files.get(name))
+        failed = failed or bool(other)
+        size = sum(map(len, files.values()))
+        told = f"other bytes in {', '.join(other)}" if other else f"the same {size} bytes in {len(files)} files"
+        print(f"{platform.name}, run {scene}: {told}", flush=True)
+    return failed
 
 
 def main():
-    """Every unit named."""
+    """Every unit named, and the programs."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("units", nargs="+", type=Path, help="units, with a library for each platform")
-    parser.add_argument("--compiler", default="", help="compiles C for this machine, and with -target for Windows")
+    parser.add_argument("--programs", type=Path, help="a folder with the command for each platform")
+    parser.add_argument("--scene", type=Path, help="what they run")
+    parser.add_argument("--compiler", default="", help="compiles C for this machine, and with -target for others")
     options = parser.parse_args()
+    if bool(options.programs) != bool(options.scene):
+        parser.error("expected --programs and --scene together")
     failed = False
     with tempfile.TemporaryDirectory(prefix="cograin-") as name:
         folder = Path(name).resolve()
-        hosts = {it: Host(folder, it, compiler) for it, compiler in compilers(options.compiler.split()).items()}
+        hosts = [Host(folder, platform) for platform in usable(options.compiler.split())]
         for number, path in enumerate(options.units):
-            unit = Unit(path, folder / str(number))
-            columns = ["time", *(it.get("name") for it in unit.outputs)]
-            # The experiment leaves out the nodes of meshes.
-            kept = [(place, column) for place, column in enumerate(columns) if column in unit.results[0]]
-            expected = [[row[column] for _, column in kept] for row in unit.results]
-            first = None
-            for platform, host in hosts.items():
-                if not (unit.folder / "binaries" / platform).is_dir():
-                    print(f"{path.name}: no library for {platform}")
-                    continue
-                rest = [[row[place] for place, _ in kept] for row in host.run(unit, unit.at_rest())]
-                rows = host.run(unit, unit.swing())
-                first = first or rows
-                found = differences([column for _, column in kept], expected, rest) or differences(columns, first, rows)
-                failed = failed or found is not None
-                forces = [place for place, column in enumerate(columns) if ".force." in column]
-                largest = max(forces, key=lambda place: abs(float(rows[-1][place])), default=1)
-                same = f"same digits in {len(columns)} columns, {columns[largest]} {rows[-1][largest]} at the end"
-                print(f"{path.name}, {platform}: {found or same}", flush=True)
+            failed = step_all(Unit(path, folder / str(number)), hosts) or failed
+        if options.programs:
+            failed = run_all(options.programs.resolve(), options.scene.resolve(), hosts) or failed
     return failed
 
 

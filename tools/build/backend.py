@@ -2,7 +2,7 @@
 
 What `pip install .` calls (PEP 517). The command and the library are built by cargo, unless they are built already and
 named: `--config-settings program=PATH`, or the environment variable COGRAIN_PROGRAM; the library is then the one beside
-it.
+it. `libraries=FOLDER` takes the libraries in its folders instead, each of which has the name of a platform.
 `--config-settings platform=TAG` names another platform than that of this machine.
 
 An editable wheel has the Python package alone: whoever changes the tree builds the command with cargo.
@@ -19,13 +19,15 @@ import sysconfig
 import tarfile
 import tomllib
 import zipfile
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 ROOT = Path(__file__).resolve().parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 NAME = f"{PROJECT['name']}-{PROJECT['version']}"
 INFORMATION = f"{NAME}.dist-info"
 LICENSES = ["LICENSE-MIT", "LICENSE-APACHE", "fmu/library/third_party.txt"]
+# Names of the library of units on Linux, macOS and Windows.
+LIBRARIES = ["libcograin_fmu.so", "libcograin_fmu.dylib", "cograin_fmu.dll"]
 # The same bytes whenever it is made: the earliest time that a zip file knows.
 TIME = (1980, 1, 1, 0, 0, 0)
 
@@ -51,14 +53,16 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     """The whole wheel."""
     settings = config_settings or {}
     named = settings.get("program") or os.environ.get("COGRAIN_PROGRAM")
-    program, library = built_before(Path(named)) if named else built_now()
+    program = built_before(Path(named)) if named else built_now()
+    folder = settings.get("libraries")
+    libraries = libraries_below(ROOT / folder) if folder else {"": library_in(program.parent)}
     python = ROOT / "python"
     package = [path for path in sorted(python.glob("cograin/**/*")) if path.is_file() and path.suffix != ".pyc"]
     files = {path.relative_to(python).as_posix(): path.read_bytes() for path in package}
-    programs = {
-        f"{NAME}.data/scripts/{program.name}": program.read_bytes(),
-        f"{NAME}.data/data/lib/cograin/{library.name}": library.read_bytes(),
-    }
+    programs = {f"{NAME}.data/scripts/{program.name}": program.read_bytes()}
+    for platform, library in libraries.items():
+        place = PurePosixPath(f"{NAME}.data/data/lib/cograin", platform, library.name)
+        programs[str(place)] = library.read_bytes()
     return write(Path(wheel_directory), tag(settings), files, programs)
 
 
@@ -88,7 +92,7 @@ def build_sdist(sdist_directory, config_settings=None):
 
 
 def built_now():
-    """The program and the library, built by cargo."""
+    """The program, built by cargo with the library beside it."""
     cargo = os.environ.get("CARGO", "cargo")
     command = [cargo, "build", "--release", "--locked", "--package", "cograin-command", "--package", "cograin-fmu"]
     try:
@@ -103,24 +107,31 @@ def built_now():
         [cargo, "metadata", "--format-version", "1", "--no-deps"], cwd=ROOT, check=True, capture_output=True
     )
     folder = Path(json.loads(described.stdout)["target_directory"]) / "release"
-    return folder / ("cograin.exe" if os.name == "nt" else "cograin"), library_in(folder)
+    return folder / ("cograin.exe" if os.name == "nt" else "cograin")
 
 
 def built_before(program):
-    """The program at a path from the root, and the library beside it."""
+    """The program at a path from the root."""
     program = ROOT / program
     if not program.is_file():
         raise SystemExit(f"{program}: expected the cograin command, found no file")
-    return program, library_in(program.parent)
+    return program
 
 
 def library_in(folder):
     """The library of units in a folder."""
-    names = ["libcograin_fmu.so", "libcograin_fmu.dylib", "cograin_fmu.dll"]
-    found = [folder / name for name in names if (folder / name).is_file()]
+    found = [folder / name for name in LIBRARIES if (folder / name).is_file()]
     if not found:
-        raise SystemExit(f"{folder}: expected the library of units, found none of {', '.join(names)}")
+        raise SystemExit(f"{folder}: expected the library of units, found none of {', '.join(LIBRARIES)}")
     return found[0]
+
+
+def libraries_below(folder):
+    """The libraries of units in the folders of a folder, by the names of those."""
+    found = {path.parent.name: path for name in LIBRARIES for path in sorted(folder.glob(f"*/{name}"))}
+    if not found:
+        raise SystemExit(f"{folder}: expected folders with libraries of units, found none of {', '.join(LIBRARIES)}")
+    return found
 
 
 def metadata():

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import sysconfig
+from collections.abc import Iterable
 from pathlib import Path
 
 
@@ -44,8 +45,15 @@ class Program:
         """Brings a scene to rest, in place of an earlier file; returns what the command printed."""
         return self("settle", scene, "-o", checkpoint, "--overwrite")
 
-    def export(self, scene: str | Path, unit: str | Path, *, start: str | Path | None = None) -> Path:
-        """Packages a scene, settled if a state is given, in place of an earlier file; returns the unit's path."""
+    def export(
+        self, scene: str | Path, unit: str | Path, *, start: str | Path | None = None, platforms: Iterable[str] = ()
+    ) -> Path:
+        """Packages a scene, settled if a state is given, in place of an earlier file; returns the unit's path.
+
+        ``platforms``, such as ``["linux64"]``, are those for which the unit carries a library; by default all that
+        there are.
+        """
         settled = () if start is None else ("--from", start)
-        self("export", scene, *settled, "-o", unit, "--overwrite")
+        chosen = [word for name in platforms for word in ("--platform", name)]
+        self("export", scene, *settled, *chosen, "-o", unit, "--overwrite")
         return Path(unit)

@@ -101,7 +101,8 @@ def packing(
 
     ``scale`` gives the values of the two ends of the colours; by default those of this frame but for its largest
     hundredth. ``at`` \\[m\\] shows the slice at this place of the axis: particles where it cuts them, and walls (with
-    ``[output] boundaries``). ``names`` are those of numbers, such as sets. ``panel`` is drawn in, where one is given.
+    ``[output] boundaries``). ``names`` are those of numbers, such as sets, where
+    others are wanted than those of the scene. ``panel`` is drawn in, where one is given.
     """
     drawn, (panel,) = figure(height=5.5) if panel is None else (panel.figure, (panel,))
     particles = frame.particles
@@ -120,7 +121,7 @@ def packing(
     by = colouring(particles, by)
     style = {"view": view, "radius": radius[shown], **EDGES}
     if are_kinds(particles, by):
-        _kinds(panel, _part(particles, shown), particles[by], by, names or {}, shown, style)
+        _kinds(panel, _part(particles, shown), particles[by], by, names or frame.names(by), shown, style)
     else:
         found = values(frame, particles, by)
         low, high = scale or ends(particles, by, found, frame.time)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -94,6 +95,10 @@ class Frame:
         """The surfaces, facet by facet."""
         return self._read("boundaries")
 
+    def names(self, field: str) -> dict[int, str]:
+        """Names of the numbers of a field: sets, materials, boundaries (``group``), which the end of a run tells."""
+        return dict(enumerate(names_in(self.folder).get("boundary" if field == "group" else field, ())))
+
     @property
     def clumps(self) -> Cloud | None:
         """The clumps, a point each: mass centre, orientation, motion."""
@@ -118,6 +123,15 @@ class Frame:
         """The three edges of the periodic cell, a row each \\[m\\]; 0 where nothing repeats."""
         cell = self.cell
         return None if cell is None or len(cell) < 6 else cell.points[1:6:2] - cell.points[0:6:2]
+
+
+def names_in(folder: Path) -> dict[str, list[str]]:
+    """Names of sets, materials and boundaries, of a run that has ended; none elsewhere."""
+    try:
+        told: dict[str, list[str]] = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["names"]
+    except (OSError, ValueError, KeyError):
+        return {}
+    return told
 
 
 def frames_in(folder: str | Path) -> list[Frame]:

@@ -134,11 +134,20 @@ def _counts(name: str, columns: Mapping[str, Vector]) -> bool:
     return name != "contacts.count" and (last in COUNTED or name.startswith("energy.lost."))
 
 
+def _is_next(before: Vector, after: Vector) -> bool:
+    """Whether a history begins with the row that follows another one: nearer than a row that is left out would be."""
+    intervals = np.concatenate([np.diff(before), np.diff(after)])
+    if not len(before) or not len(after) or not len(intervals):
+        return False
+    return bool(0.0 < after[0] - before[-1] < 1.5 * intervals.max())
+
+
 def joined(*tables: Table) -> Table:
-    """The histories of a run and of those that went on from it (``cograin run --from``), one after the other.
+    """The histories of a run and of those that went on from it in other folders, one after the other.
 
     A later one counts from where it begins; of those before it, rows until then are kept. Works, heats, losses and
-    counts, which begin anew with it, are carried on. Columns are those that all have.
+    counts, which begin anew with ``cograin run --from``, are carried on. ``cograin run --resume FILE`` begins nothing
+    anew; its history begins with the next row. Columns are those that all have.
     """
     if not tables:
         raise ResultError("joined: expected histories, found none")
@@ -149,10 +158,13 @@ def joined(*tables: Table) -> Table:
     for table in tables[1:]:
         begin = float(table["time"][0]) if table.rows else np.nan
         here = np.flatnonzero(found["time"] == begin)
+        if _is_next(found["time"], table["time"]):
+            found = {name: np.concatenate([found[name], table[name]]) for name in names}
+            continue
         if not len(here):
             raise ResultError(
                 f"joined: expected a history that begins at a time of the one before, up to {found['time'][-1]:g} s, "
-                f"found {begin:g} s"
+                f"or with the row after it, found {begin:g} s"
             )
         place = int(here[-1])
         for name in names:

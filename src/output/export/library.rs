@@ -1,10 +1,11 @@
 //! The library that a unit carries: where it is looked for, and whether it is the right one.
 
-use super::functions::FUNCTIONS;
-use crate::interface::Standard;
-use object::read::NameOrOrdinal;
-use object::read::macho::{FatArch, MachOFatFile32, MachOFatFile64};
-use object::{Architecture, BinaryFormat, FileFlags, FileKind, Object, ObjectKind};
+mod image;
+
+pub use image::LIBRARY_MARK;
+pub(super) use image::Platform;
+
+use image::{Image, built_by};
 use std::collections::{BTreeMap, BTreeSet};
 use std::env;
 use std::fs;
@@ -16,21 +17,6 @@ pub const ENVIRONMENT_VARIABLE: &str = "COGRAIN_FMU_LIBRARY";
 
 /// Name of the library with the sub-models of the program.
 pub const STANDARD_LIBRARY: &str = "cograin_fmu";
-
-/// Text that stands in a library of units that was built from these sources, and in no other.
-pub const LIBRARY_MARK: &str =
-    concat!("cograin FMI 2.0 library, version ", env!("CARGO_PKG_VERSION"), ", build ", env!("COGRAIN_BUILD"), ";");
-
-/// How marks begin, those of other versions, too.
-const MARK_BEGINS: &str = "cograin FMI 2.0 library, ";
-
-/// A mark is no longer.
-const LONGEST_MARK: usize = 120;
-
-/// What a mark, whole or after its begin, says of the program.
-fn built_by(mark: &str) -> &str {
-    mark.trim_start_matches(MARK_BEGINS).trim_end_matches(';')
-}
 
 /// Why there is no library to package.
 #[derive(Debug, thiserror::Error)]
@@ -94,6 +80,14 @@ pub enum LibraryError {
         /// The system and processor.
         found: String,
     },
+    /// None is for a platform that was asked for.
+    #[error("expected a platform whose library is there ({}), found {wanted}", there.join(", "))]
+    Wanted {
+        /// What was asked for.
+        wanted: String,
+        /// The platforms whose libraries are there.
+        there: Vec<String>,
+    },
     /// Two of them would stand in one place.
     #[error("expected one library for {folder}, found {} and {}", paths[0].display(), paths[1].display())]
     Twice {
@@ -109,24 +103,19 @@ fn list(paths: &[PathBuf]) -> String {
     paths.iter().map(|path| path.display().to_string()).collect::<Vec<_>>().join(", ")
 }
 
-/// How FMI names a kind of machine.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Platform {
-    /// Folder of the library in a unit of FMI 2.0.
-    folder: String,
-    /// The same in one of FMI 3.0.
-    tuple: String,
-    /// End of the library's name.
-    pub(super) suffix: &'static str,
+/// Files of libraries, and the platforms among theirs for which a unit carries one.
+#[derive(Clone, Debug)]
+pub struct Libraries {
+    /// The files.
+    pub paths: Vec<PathBuf>,
+    /// Names of platforms, as either edition of FMI has them; without any, all.
+    pub platforms: Vec<String>,
 }
 
-impl Platform {
-    /// Folder of the library in a unit.
-    pub(super) fn folder(&self, standard: Standard) -> &str {
-        match standard {
-            Standard::Fmi2 => &self.folder,
-            Standard::Fmi3 => &self.tuple,
-        }
+impl Libraries {
+    /// Whether a unit carries a library for this platform.
+    fn takes(&self, platform: &Platform) -> bool {
+        self.platforms.is_empty() || self.platforms.iter().any(|name| platform.is_named(name))
     }
 }
 
@@ -140,144 +129,48 @@ pub(super) struct Library {
 }
 
 impl Library {
-    /// The libraries at these paths, in the order of their folders, if all are libraries of units for different machines.
-    pub(super) fn read_all(paths: &[PathBuf]) -> Result<Vec<Self>, LibraryError> {
+    /// The libraries that a unit carries, in the order of their folders, if all are libraries of units for different machines.
+    pub(super) fn read_all(libraries: &Libraries) -> Result<Vec<Self>, LibraryError> {
         let mut found: BTreeMap<Platform, (&PathBuf, Vec<u8>)> = BTreeMap::new();
-        for path in paths {
-            let (platforms, bytes) = Self::read(path)?;
-            for platform in platforms {
+        let mut there = BTreeSet::new();
+        for path in &libraries.paths {
+            let bytes = fs::read(path).map_err(|cause| LibraryError::Read { path: path.clone(), cause })?;
+            let platforms = Self::platforms(path, &bytes, libraries)?;
+            there.extend(platforms.iter().cloned());
+            for platform in platforms.into_iter().filter(|platform| libraries.takes(platform)) {
                 let folder = platform.folder.clone();
                 if let Some((other, _)) = found.insert(platform, (path, bytes.clone())) {
                     return Err(LibraryError::Twice { folder, paths: [other.clone(), path.clone()] });
                 }
             }
         }
+        if let Some(wanted) = libraries.platforms.iter().find(|name| !found.keys().any(|it| it.is_named(name))) {
+            let there = there.into_iter().map(|platform| platform.folder).collect();
+            return Err(LibraryError::Wanted { wanted: wanted.clone(), there });
+        }
         Ok(found.into_iter().map(|(platform, (_, bytes))| Self { platform, bytes }).collect())
     }
 
-    /// The file at a path, if it is a library of units, and the machines that it is for: several where it holds code for several
-    /// processors, as those of a Mac.
-    fn read(path: &Path) -> Result<(BTreeSet<Platform>, Vec<u8>), LibraryError> {
+    /// The machines that a file is for: several where it holds code for several processors, as those of a Mac. Those parts that the
+    /// unit carries must be libraries of units.
+    fn platforms(path: &Path, bytes: &[u8], wanted: &Libraries) -> Result<BTreeSet<Platform>, LibraryError> {
         let path_of = || path.to_owned();
-        let bytes = fs::read(path).map_err(|cause| LibraryError::Read { path: path_of(), cause })?;
-        let images = Image::all_of(&bytes).map_err(|found| LibraryError::Kind { path: path_of(), found })?;
+        let images = Image::all_of(bytes).map_err(|found| LibraryError::Kind { path: path_of(), found })?;
         let mut platforms = BTreeSet::new();
         for image in &images {
-            let marks: Vec<&[u8]> = image.marks().collect();
-            if !marks.iter().any(|mark| mark.starts_with(LIBRARY_MARK.as_bytes())) {
-                // Of the library's own texts that begin likewise the mark tells most.
-                return Err(match marks.into_iter().filter_map(told).max_by_key(|found| found.len()) {
-                    Some(found) => LibraryError::Other { path: path_of(), found: found.to_owned() },
-                    None => LibraryError::Foreign { path: path_of() },
-                });
+            let platform = image.platform().map_err(|found| LibraryError::Platform { path: path_of(), found })?;
+            if wanted.takes(&platform) {
+                image.check(path)?;
             }
-            platforms.insert(image.platform().map_err(|found| LibraryError::Platform { path: path_of(), found })?);
-            let functions = image.functions().map_err(|found| LibraryError::Kind { path: path_of(), found })?;
-            if let Some(missing) = FUNCTIONS.concat().into_iter().find(|name| !functions.contains(name.as_bytes())) {
-                return Err(LibraryError::Function { path: path_of(), missing });
-            }
+            platforms.insert(platform);
         }
-        Ok((platforms, bytes))
+        Ok(platforms)
     }
-}
-
-/// Machine code for one processor.
-struct Image<'a> {
-    /// The file, or that part of it.
-    file: object::File<'a>,
-    /// Its bytes.
-    bytes: &'a [u8],
-}
-
-/// What a mark says of the program that it was built with, if it is one.
-fn told(mark: &[u8]) -> Option<&str> {
-    let end = mark.iter().take(LONGEST_MARK).position(|byte| *byte == b';')?;
-    let text = std::str::from_utf8(&mark[..end]).ok().map(built_by)?;
-    text.chars().all(|letter| letter.is_ascii_graphic() || letter == ' ').then_some(text)
-}
-
-impl<'a> Image<'a> {
-    /// The shared library that the bytes are, for each of its processors, or what they are instead.
-    fn all_of(bytes: &'a [u8]) -> Result<Vec<Self>, String> {
-        let parts = match FileKind::parse(bytes) {
-            Err(_) => return Err("another file".to_owned()),
-            Ok(FileKind::MachOFat32) => parts_of(MachOFatFile32::parse(bytes).map_err(damaged)?.arches(), bytes)?,
-            Ok(FileKind::MachOFat64) => parts_of(MachOFatFile64::parse(bytes).map_err(damaged)?.arches(), bytes)?,
-            Ok(_) => vec![bytes],
-        };
-        parts.into_iter().map(Self::of).collect()
-    }
-
-    /// The shared library for one processor.
-    fn of(bytes: &'a [u8]) -> Result<Self, String> {
-        let file = object::File::parse(bytes).map_err(damaged)?;
-        match file.kind() {
-            ObjectKind::Dynamic => Ok(Self { file, bytes }),
-            ObjectKind::Executable => Err("a program".to_owned()),
-            _ => Err("an object file".to_owned()),
-        }
-    }
-
-    /// Its bytes from each place where a mark may begin.
-    fn marks(&self) -> impl Iterator<Item = &'a [u8]> {
-        let (bytes, begin) = (self.bytes, MARK_BEGINS.as_bytes());
-        bytes.windows(begin.len()).enumerate().filter(move |(_, window)| *window == begin).map(|(at, _)| &bytes[at..])
-    }
-
-    /// The machines that it is for, or their name if FMI has none for them. FMI 2.0 has names of its own for x86 and, since 2.0.4,
-    /// takes those of FMI 3.0 for other processors.
-    fn platform(&self) -> Result<Platform, String> {
-        /// Values of the ELF header's field for the system that Linux uses: none, and GNU.
-        const LINUX: [u8; 2] = [0, 3];
-        let (format, processor) = (self.file.format(), self.file.architecture());
-        let linux = !matches!(self.file.flags(), FileFlags::Elf { os_abi, .. } if !LINUX.contains(&os_abi.0));
-        let (system, name, short, suffix) = match format {
-            BinaryFormat::Elf if linux => ("Linux", "linux", "linux", ".so"),
-            BinaryFormat::Pe => ("Windows", "windows", "win", ".dll"),
-            BinaryFormat::MachO => ("macOS", "darwin", "darwin", ".dylib"),
-            _ => ("another system", "", "", ""),
-        };
-        let named = match processor {
-            _ if name.is_empty() => None,
-            Architecture::I386 => Some((format!("{short}32"), "x86")),
-            Architecture::X86_64 => Some((format!("{short}64"), "x86_64")),
-            Architecture::Arm => Some((format!("aarch32-{name}"), "aarch32")),
-            Architecture::Aarch64 => Some((format!("aarch64-{name}"), "aarch64")),
-            Architecture::Riscv32 => Some((format!("riscv32-{name}"), "riscv32")),
-            Architecture::Riscv64 => Some((format!("riscv64-{name}"), "riscv64")),
-            _ => None,
-        };
-        let machine = || format!("{system} on {}", format!("{processor:?}").to_lowercase());
-        let (folder, processor) = named.ok_or_else(machine)?;
-        Ok(Platform { folder, tuple: format!("{processor}-{name}"), suffix })
-    }
-
-    /// Names of the functions that it offers, as C has them.
-    fn functions(&self) -> Result<BTreeSet<Vec<u8>>, String> {
-        let underscore: &[u8] = if self.file.format() == BinaryFormat::MachO { b"_" } else { b"" };
-        let mut names = BTreeSet::new();
-        for export in self.file.exports().map_err(damaged)? {
-            if let NameOrOrdinal::Name(name) = export.map_err(damaged)?.name() {
-                names.extend(name.strip_prefix(underscore).map(<[u8]>::to_vec));
-            }
-        }
-        Ok(names)
-    }
-}
-
-/// Of a file for several processors the part for each.
-fn parts_of<'a>(parts: &[impl FatArch], bytes: &'a [u8]) -> Result<Vec<&'a [u8]>, String> {
-    let parts: Vec<_> = parts.iter().map(|part| part.data(bytes)).collect::<Result<_, _>>().map_err(damaged)?;
-    if parts.is_empty() { Err("a damaged one: it has no part".to_owned()) } else { Ok(parts) }
-}
-
-/// What is said of a file that cannot be read to its end.
-fn damaged(error: object::Error) -> String {
-    format!("a damaged one: {error}")
 }
 
 /// Finds the libraries: at the paths given, one for each platform, else where [`ENVIRONMENT_VARIABLE`] says, else beside the running
-/// program, in the folder above it, or in `../lib/cograin`; there it has the name that the crate has which makes it.
+/// program, in the folder above it, or in `../lib/cograin`; there they have the name that the crate has which makes them. That last
+/// folder and those in it may hold libraries for several platforms; all are found.
 pub fn find_libraries(name: &str, given: &[PathBuf]) -> Result<Vec<PathBuf>, LibraryError> {
     if let Some(missing) = given.iter().find(|path| !path.is_file()) {
         return Err(LibraryError::NotFound { looked_at: vec![missing.clone()] });
@@ -285,25 +178,38 @@ pub fn find_libraries(name: &str, given: &[PathBuf]) -> Result<Vec<PathBuf>, Lib
     if !given.is_empty() {
         return Ok(given.to_vec());
     }
-    let named = env::var_os(ENVIRONMENT_VARIABLE).map(|path| vec![PathBuf::from(path)]);
-    let looked_at = named.unwrap_or_else(|| beside(name, env::current_exe().ok()));
-    match looked_at.iter().find(|path| path.is_file()) {
-        Some(path) => Ok(vec![path.clone()]),
-        None => Err(LibraryError::NotFound { looked_at }),
+    match env::var_os(ENVIRONMENT_VARIABLE).map(PathBuf::from) {
+        Some(path) if path.is_file() => Ok(vec![path]),
+        Some(path) => Err(LibraryError::NotFound { looked_at: vec![path] }),
+        None => beside(name, env::current_exe().ok()),
     }
 }
 
-/// Where the library of this name may stand when the program stands at `program`.
-fn beside(name: &str, program: Option<PathBuf>) -> Vec<PathBuf> {
-    let name = format!("{}{name}{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+/// The libraries of this name for the program that stands at `program`.
+fn beside(name: &str, program: Option<PathBuf>) -> Result<Vec<PathBuf>, LibraryError> {
+    let own = format!("{}{name}{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+    let folder = program.as_deref().and_then(Path::parent);
     // programs of tests stand one folder below the library
-    let folders = program.into_iter().flat_map(|program| {
-        let folder = program.parent().map(Path::to_owned);
-        let above = folder.as_deref().and_then(Path::parent).map(Path::to_owned);
-        let installed = above.as_ref().map(|above| above.join("lib").join("cograin"));
-        [folder, above, installed]
-    });
-    folders.flatten().map(|folder| folder.join(&name)).collect()
+    let above = folder.and_then(Path::parent);
+    let mut looked_at: Vec<PathBuf> = [folder, above].into_iter().flatten().map(|folder| folder.join(&own)).collect();
+    if let Some(built) = looked_at.iter().find(|path| path.is_file()) {
+        return Ok(vec![built.clone()]);
+    }
+    let installed = above.map(|above| above.join("lib").join("cograin"));
+    let found = installed.as_deref().map_or_else(Vec::new, |folder| installed_in(folder, name));
+    looked_at.extend(installed.map(|folder| folder.join(&own)));
+    if found.is_empty() { Err(LibraryError::NotFound { looked_at }) } else { Ok(found) }
+}
+
+/// The libraries of this name in a folder and in those that stand in it, for any system.
+fn installed_in(folder: &Path, name: &str) -> Vec<PathBuf> {
+    let names = [format!("lib{name}.so"), format!("{name}.dll"), format!("lib{name}.dylib")];
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let folders = std::iter::once(folder.to_owned()).chain(entries.filter(|path| path.is_dir()));
+    let mut found: Vec<PathBuf> = folders.flat_map(|folder| names.clone().map(|name| folder.join(name))).collect();
+    found.retain(|path| path.is_file());
+    found.sort();
+    found
 }
 
 #[cfg(test)]
@@ -314,12 +220,11 @@ mod tests {
 
     /// The name by which the library at a path of this test is refused, or the folders that it gets.
     fn verdict(name: &str, bytes: &[u8]) -> Result<String, String> {
-        let folder = Scratch::new();
-        let path = folder.join(name);
-        fs::write(&path, bytes).unwrap();
+        let path = PathBuf::from(name);
         let folders = |platforms: BTreeSet<Platform>| platforms.into_iter().map(|it| it.folder).collect::<Vec<_>>();
-        let read = Library::read(&path);
-        read.map(|(platforms, _)| folders(platforms).join(" ")).map_err(|error| error.to_string())
+        let all = Libraries { paths: Vec::new(), platforms: Vec::new() };
+        let read = Library::platforms(&path, bytes, &all);
+        read.map(|platforms| folders(platforms).join(" ")).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -333,8 +238,47 @@ mod tests {
     #[test]
     fn the_library_is_looked_for_beside_above_and_in_lib() {
         let name = format!("{}cograin_fmu{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
-        let expected = ["/usr/bin", "/usr", "/usr/lib/cograin"].map(|folder| Path::new(folder).join(&name));
-        assert_eq!(beside(STANDARD_LIBRARY, Some("/usr/bin/cograin".into())), expected);
+        let expected = ["/no/bin", "/no", "/no/lib/cograin"].map(|folder| Path::new(folder).join(&name));
+        match beside(STANDARD_LIBRARY, Some("/no/bin/cograin".into())) {
+            Err(LibraryError::NotFound { looked_at }) => assert_eq!(looked_at, expected),
+            other => panic!("expected no library, found {other:?}"),
+        }
+    }
+
+    #[test]
+    fn libraries_that_were_installed_are_found_for_every_platform_and_one_beside_the_program_stands_alone() {
+        let folder = Scratch::new();
+        let write = |path: &str, sample: Sample| {
+            let path = folder.join(path);
+            fs::create_dir_all(path.parent().unwrap()).unwrap();
+            fs::write(&path, sample.bytes()).unwrap();
+            path
+        };
+        let linux = write("lib/cograin/x86_64-linux/libcograin_fmu.so", Sample::LINUX);
+        let arm = write("lib/cograin/aarch64-linux/libcograin_fmu.so", Sample { arm: true, ..Sample::LINUX });
+        let windows = write("lib/cograin/x86_64-windows/cograin_fmu.dll", Sample::WINDOWS);
+        let mac = write("lib/cograin/libcograin_fmu.dylib", Sample::MACOS);
+        write("lib/cograin/x86_64-windows/own_law.dll", Sample::WINDOWS);
+        let found = || beside(STANDARD_LIBRARY, Some(folder.join("bin/cograin"))).unwrap();
+        let folders = |platforms: &[&str]| {
+            let platforms = platforms.iter().map(ToString::to_string).collect();
+            let read = Library::read_all(&Libraries { paths: found(), platforms });
+            read.map(|all| all.into_iter().map(|it| it.platform.folder).collect::<Vec<_>>().join(" "))
+        };
+        assert_eq!(found(), [arm, mac, linux, windows.clone()]);
+        assert_eq!(folders(&[]).unwrap(), "aarch64-linux darwin64 linux64 win64");
+        // Names of either edition.
+        assert_eq!(folders(&["win64", "x86_64-linux"]).unwrap(), "linux64 win64");
+        let message = folders(&["linux64", "win32"]).unwrap_err().to_string();
+        assert!(message.ends_with("(aarch64-linux, darwin64, linux64, win64), found win32"), "{message}");
+        // What is left out need not fit; what is packed must.
+        fs::write(&windows, Sample { mark: "", ..Sample::WINDOWS }.bytes()).unwrap();
+        assert_eq!(folders(&["linux64"]).unwrap(), "linux64");
+        assert!(folders(&[]).unwrap_err().to_string().contains("without the mark"));
+        let own = format!("{}cograin_fmu{}", env::consts::DLL_PREFIX, env::consts::DLL_SUFFIX);
+        assert_eq!(found().len(), 4);
+        let built = write(&format!("bin/{own}"), Sample::LINUX);
+        assert_eq!(found(), [built]);
     }
 
     #[test]
@@ -412,7 +356,8 @@ mod tests {
         for path in &paths {
             fs::write(path, Sample::LINUX.bytes()).unwrap();
         }
-        let message = Library::read_all(&paths).unwrap_err().to_string();
+        let both = Libraries { paths: paths.to_vec(), platforms: Vec::new() };
+        let message = Library::read_all(&both).unwrap_err().to_string();
         for path in &paths {
             assert!(message.contains(&path.display().to_string()), "{message}");
         }

@@ -15,7 +15,7 @@ mod sample_library;
 mod terminals;
 
 pub use description::LOG_CATEGORIES;
-pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, LibraryError, STANDARD_LIBRARY, find_libraries};
+pub use library::{ENVIRONMENT_VARIABLE, LIBRARY_MARK, Libraries, LibraryError, STANDARD_LIBRARY, find_libraries};
 pub use resources::{Content, Contents, Resource, ResourceError, identity, read_resources, resources};
 
 use crate::engine::simulation::{RunError, Simulation};
@@ -69,8 +69,8 @@ const LICENSES: [(&str, &str); 3] = [
     ("third_party.txt", include_str!("../../../fmu/library/third_party.txt")),
 ];
 
-/// Packages a scene, in the state of `state` if there is one, with the libraries at `libraries`, one for each platform, as the unit
-/// `output` that speaks an edition of the standard.
+/// Packages a scene, in the state of `state` if there is one, with libraries, one for each platform, as the unit `output` that speaks an
+/// edition of the standard.
 ///
 /// The same scene, state and libraries give the same bytes. The file appears whole or not at all. A scene that does not start is
 /// refused.
@@ -78,7 +78,7 @@ pub fn export(
     source: &Source,
     scene: &Arc<Scene>,
     state: Option<&State>,
-    libraries: &[PathBuf],
+    libraries: &Libraries,
     standard: Standard,
     output: &Path,
 ) -> Result<(), PackageError> {

@@ -63,17 +63,17 @@ impl Folder {
     }
 
     /// Writes something that passes for the library.
-    fn library(&self) -> PathBuf {
+    fn library(&self) -> Libraries {
         let path = self.0.join("library.so");
         fs::write(&path, sample_library::Sample::LINUX.bytes()).unwrap();
-        path
+        Libraries { paths: vec![path], platforms: Vec::new() }
     }
 
     /// Exports the scene and reads the unit.
     fn exported(&self, name: &str, state: Option<&State>) -> BTreeMap<String, Vec<u8>> {
         let (source, output) = (source(), self.0.join(name));
         let scene = Arc::new(Scene::from_source(&source).unwrap());
-        export(&source, &scene, state, &[self.library()], Standard::Fmi2, &output).unwrap();
+        export(&source, &scene, state, &self.library(), Standard::Fmi2, &output).unwrap();
         self.read(name)
     }
 
@@ -273,7 +273,7 @@ fn what_the_scene_says_of_itself_stands_in_the_description_the_page_and_the_lice
     let source = Source { text: format!("{SCENE}\n{said}"), ..source() };
     let scene = Arc::new(Scene::from_source(&source).unwrap());
     let folder = Folder::new();
-    export(&source, &scene, None, &[folder.library()], Standard::Fmi2, &folder.0.join("unit.fmu")).unwrap();
+    export(&source, &scene, None, &folder.library(), Standard::Fmi2, &folder.0.join("unit.fmu")).unwrap();
     let unit = folder.read("unit.fmu");
     let description = elements(&unit["modelDescription.xml"]);
     for (name, text) in
@@ -291,10 +291,11 @@ fn a_unit_has_a_library_for_each_platform_a_picture_a_page_and_licences() {
     let (source, folder) = (source(), Folder::new());
     let scene = Arc::new(Scene::from_source(&source).unwrap());
     let samples = [sample_library::Sample::WINDOWS, sample_library::Sample::MACOS, sample_library::Sample::LINUX];
-    let libraries = ["w", "m", "l"].map(|name| folder.0.join(name));
-    for (sample, path) in samples.iter().zip(&libraries) {
+    let paths = ["w", "m", "l"].map(|name| folder.0.join(name));
+    for (sample, path) in samples.iter().zip(&paths) {
         fs::write(path, sample.bytes()).unwrap();
     }
+    let libraries = Libraries { paths: paths.to_vec(), platforms: Vec::new() };
     export(&source, &scene, None, &libraries, Standard::Fmi2, &folder.0.join("two.fmu")).unwrap();
     let unit = folder.read("two.fmu");
     let binaries: Vec<&str> = unit.keys().map(String::as_str).filter(|path| path.starts_with("binaries")).collect();
@@ -403,7 +404,7 @@ fn the_identity_follows_scene_files_and_state() {
 #[test]
 fn nothing_is_left_where_a_unit_cannot_be_written() {
     let folder = Folder::new();
-    let (source, library) = (source(), [folder.library()]);
+    let (source, library) = (source(), folder.library());
     let scene = Arc::new(Scene::from_source(&source).unwrap());
     let missing = folder.0.join("missing/unit.fmu");
     let message = export(&source, &scene, None, &library, Standard::Fmi2, &missing).unwrap_err().to_string();
@@ -432,7 +433,7 @@ fn a_unit_that_begins_in_a_state_holds_it_and_names_its_displacements() {
 fn a_unit_of_fmi_3_has_arrays_terminals_and_folders_of_its_own() {
     let (source, folder) = (source(), Folder::new());
     let scene = Arc::new(Scene::from_source(&source).unwrap());
-    export(&source, &scene, None, &[folder.library()], Standard::Fmi3, &folder.0.join("three.fmu")).unwrap();
+    export(&source, &scene, None, &folder.library(), Standard::Fmi3, &folder.0.join("three.fmu")).unwrap();
     let unit = folder.read("three.fmu");
     assert!(unit.contains_key("binaries/x86_64-linux/three.so") && unit.contains_key("terminalsAndIcons/icon.png"));
     assert!(!unit.contains_key("model.png"), "that is the picture of FMI 2.0");

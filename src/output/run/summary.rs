@@ -9,6 +9,7 @@ use crate::engine::simulation::Simulation;
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Deepest, Loss, Named};
 use crate::output::results::Failure;
+use crate::scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs;
@@ -171,6 +172,15 @@ pub struct Summary {
     pub left_behind: Vec<String>,
     /// Units of the columns of `history.csv` that have one.
     pub units: BTreeMap<String, &'static str>,
+    /// Names of the sets, materials and boundaries that files of frames number, in the order of their numbers.
+    pub names: BTreeMap<&'static str, Vec<String>>,
+}
+
+/// Names by the fields of frames that number them.
+fn names(scene: &Scene) -> BTreeMap<&'static str, Vec<String>> {
+    let materials = scene.materials.iter().map(|material| material.name.clone()).collect();
+    let boundaries = scene.boundaries.iter().map(|boundary| boundary.name.clone()).collect();
+    BTreeMap::from([("set", scene.sets.clone()), ("material", materials), ("boundary", boundaries)])
 }
 
 impl Summary {
@@ -237,6 +247,7 @@ impl Summary {
             remarks: remarks(order.scene, simulation),
             left_behind: Vec::new(),
             units: BTreeMap::new(),
+            names: names(order.scene),
         }
     }
 

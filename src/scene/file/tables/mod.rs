@@ -79,7 +79,7 @@ keys! {
         pub(in crate::scene::file) allow_unstable: Option<bool> = "`false`",
         /// Whether a given step above the stable one stops the run instead of being divided; not with `allow_unstable`.
         pub(in crate::scene::file) strict_step: Option<bool> = "`false`; `true` beside bonds that need the very step",
-        /// Number of threads; results do not depend on it.
+        /// Number of threads, of which one works on fewer than 2000 particles; results do not depend on it.
         pub(in crate::scene::file) threads: Option<NonZeroU32> = "those of the machine",
         /// Seed of everything random (ChaCha8), 0 to 18446744073709551615.
         pub(in crate::scene::file) seed: Option<u64> = "1",
