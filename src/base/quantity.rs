@@ -6,9 +6,20 @@ use serde::{Deserialize, Deserializer, Serialize};
 use std::fmt;
 use std::num::NonZeroU32;
 
-/// Declares a checked `f64`: its name, what it must satisfy, and the words for that in a message.
+/// The least number above 0 that has all its digits.
+const ABOVE_ZERO: Option<f64> = Some(f64::MIN_POSITIVE);
+/// The largest number below 1.
+const BELOW_ONE: f64 = 1.0 - f64::EPSILON / 2.0;
+
+/// A type of numbers.
+pub trait Checked: DeserializeOwned {
+    /// Those that it takes.
+    const RANGE: Range;
+}
+
+/// Declares a checked `f64`: its name, what it must satisfy, the words for that in a message, the least and the largest.
 macro_rules! checked {
-    ($(#[$doc:meta])* $name:ident, $value:ident => $test:expr, $words:literal) => {
+    ($(#[$doc:meta])* $name:ident, $value:ident => $test:expr, $words:literal, $least:expr, $most:expr) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize)]
         #[serde(transparent)]
@@ -26,6 +37,10 @@ macro_rules! checked {
             }
         }
 
+        impl Checked for $name {
+            const RANGE: Range = Range::of::<Self>($least, $most);
+        }
+
         impl<'de> Deserialize<'de> for $name {
             fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
                 let value = f64::deserialize(deserializer)?;
@@ -36,25 +51,25 @@ macro_rules! checked {
 }
 
 checked!(/// Any finite number.
-    Finite, value => value.is_finite(), "a finite number");
+    Finite, value => value.is_finite(), "a finite number", None, None);
 checked!(/// A number above 0.
-    Positive, value => value > 0.0, "a number above 0");
+    Positive, value => value > 0.0, "a number above 0", ABOVE_ZERO, None);
 checked!(/// A number of 0 or above.
-    NonNegative, value => value >= 0.0, "a number of 0 or above");
+    NonNegative, value => value >= 0.0, "a number of 0 or above", Some(0.0), None);
 checked!(/// A number of 1 or above.
-    AtLeastOne, value => value >= 1.0, "a number of 1 or above");
+    AtLeastOne, value => value >= 1.0, "a number of 1 or above", Some(1.0), None);
 checked!(/// A number above 0 and at most 1.
-    Restitution, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
+    Restitution, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1", ABOVE_ZERO, Some(1.0));
 checked!(/// Part of space that is not filled: above 0 and at most 1.
-    Porosity, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1");
+    Porosity, value => value > 0.0 && value <= 1.0, "a number above 0 and at most 1", ABOVE_ZERO, Some(1.0));
 checked!(/// A number from 0 to 1.
-    Fraction, value => (0.0..=1.0).contains(&value), "a number from 0 to 1");
+    Fraction, value => (0.0..=1.0).contains(&value), "a number from 0 to 1", Some(0.0), Some(1.0));
 checked!(/// A number above 0 and below 1: how much of the stable step an automatic time step takes.
-    Safety, value => value > 0.0 && value < 1.0, "a number above 0 and below 1");
+    Safety, value => value > 0.0 && value < 1.0, "a number above 0 and below 1", ABOVE_ZERO, Some(BELOW_ONE));
 checked!(/// A number from 0 to below 1.
-    BelowOne, value => (0.0..1.0).contains(&value), "a number from 0 to below 1");
+    BelowOne, value => (0.0..1.0).contains(&value), "a number from 0 to below 1", Some(0.0), Some(BELOW_ONE));
 checked!(/// Poisson's ratio of an isotropic material: from 0 to ½.
-    PoissonsRatio, value => (0.0..=0.5).contains(&value), "a number from 0 to 0.5");
+    PoissonsRatio, value => (0.0..=0.5).contains(&value), "a number from 0 to 0.5", Some(0.0), Some(0.5));
 
 /// Which numbers a key takes.
 #[derive(Clone, Copy, Debug)]
@@ -67,30 +82,27 @@ pub struct Range {
     check: fn(f64) -> Result<(), String>,
 }
 
-/// The least number above 0 that has all its digits.
-const ABOVE_ZERO: Option<f64> = Some(f64::MIN_POSITIVE);
-
 impl Range {
     /// Above 0.
-    pub const POSITIVE: Self = Self::of::<Positive>(ABOVE_ZERO, None);
+    pub const POSITIVE: Self = Positive::RANGE;
     /// 0 or above.
-    pub const NON_NEGATIVE: Self = Self::of::<NonNegative>(Some(0.0), None);
+    pub const NON_NEGATIVE: Self = NonNegative::RANGE;
     /// A whole number of 0 or above.
     pub(crate) const COUNT: Self = Self::of::<NonNegative>(Some(0.0), Some(65535.0));
     /// 0 for no, 1 for yes.
     pub(crate) const SWITCH: Self = Self::of::<NonNegative>(Some(0.0), Some(1.0));
     /// 1 or above.
-    pub const AT_LEAST_ONE: Self = Self::of::<AtLeastOne>(Some(1.0), None);
+    pub const AT_LEAST_ONE: Self = AtLeastOne::RANGE;
     /// Above 0, at most 1.
-    pub const RESTITUTION: Self = Self::of::<Restitution>(ABOVE_ZERO, Some(1.0));
+    pub const RESTITUTION: Self = Restitution::RANGE;
     /// From 0 to 1.
-    pub const FRACTION: Self = Self::of::<Fraction>(Some(0.0), Some(1.0));
+    pub const FRACTION: Self = Fraction::RANGE;
     /// From 0 to ½.
-    pub const POISSONS_RATIO: Self = Self::of::<PoissonsRatio>(Some(0.0), Some(0.5));
+    pub const POISSONS_RATIO: Self = PoissonsRatio::RANGE;
     /// Above 0 and below 1.
-    pub(crate) const PART: Self = Self::of::<Safety>(ABOVE_ZERO, Some(1.0 - f64::EPSILON / 2.0));
+    pub(crate) const PART: Self = Safety::RANGE;
     /// From 0 to below 1.
-    pub(crate) const PART_OR_NONE: Self = Self::of::<BelowOne>(Some(0.0), Some(1.0 - f64::EPSILON / 2.0));
+    pub(crate) const PART_OR_NONE: Self = BelowOne::RANGE;
 
     /// The numbers that a type takes, from the least to the largest.
     pub const fn of<T: DeserializeOwned>(minimum: Option<f64>, maximum: Option<f64>) -> Self {
@@ -99,6 +111,33 @@ impl Range {
             T::deserialize(reader).map(drop).map_err(|error| error.to_string())
         };
         Self { minimum, maximum, check }
+    }
+
+    /// Those that the type of this name takes, if it is a type of numbers.
+    pub(crate) fn of_type(name: &str) -> Option<Self> {
+        Some(match name {
+            "Positive" => Self::POSITIVE,
+            "NonNegative" => Self::NON_NEGATIVE,
+            "AtLeastOne" | "NonZeroU32" => Self::AT_LEAST_ONE,
+            "Restitution" | "Porosity" => Self::RESTITUTION,
+            "Fraction" => Self::FRACTION,
+            "Safety" => Self::PART,
+            "PoissonsRatio" => Self::POISSONS_RATIO,
+            _ => return None,
+        })
+    }
+
+    /// What they are, in the words of the documentation.
+    #[cfg(test)]
+    pub(crate) fn words(&self) -> String {
+        let from = |least| if Some(least) == ABOVE_ZERO { "> 0".to_owned() } else { format!("≥ {least}") };
+        let to = |most| if most == BELOW_ONE { "< 1".to_owned() } else { format!("≤ {most}") };
+        match (self.minimum, self.maximum) {
+            (Some(least), Some(most)) if self.minimum != ABOVE_ZERO && most != BELOW_ONE => {
+                format!("{least} to {most}")
+            }
+            (least, most) => least.map(from).into_iter().chain(most.map(to)).collect::<Vec<_>>().join(" and "),
+        }
     }
 
     /// Whether a number is one of them; otherwise the refusal, in the words of a scene's mistakes.

@@ -38,7 +38,7 @@ pub(super) fn variables(scene: &Scene) -> impl Iterator<Item = Variable> {
         Variable {
             name: parameter.name.clone(),
             description: parameter.about.clone(),
-            quantity: Quantity::of_unit(parameter.unit),
+            quantity: Quantity::of_unit(parameter.unit.as_deref()),
             causality: Causality::Parameter,
             variability: if parameter.tunable { Variability::Tunable } else { Variability::Fixed },
             start: Some(parameter.value),

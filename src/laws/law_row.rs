@@ -13,6 +13,8 @@ pub struct LawRow<F: ?Sized + 'static> {
     pub(super) read: fn(&Document, &str, &str, &mut Faults) -> Option<Kept>,
     /// The law in numbers.
     pub(super) law: fn(Kept) -> Arc<F>,
+    /// Whether it holds for one sphere in much fluid alone.
+    pub(super) of_one_sphere: bool,
 }
 
 impl<F: ?Sized> LawRow<F> {
@@ -59,6 +61,11 @@ impl<F: ?Sized> LawModel<F> {
     /// Its name in a scene.
     pub fn name(&self) -> &'static str {
         self.row.name
+    }
+
+    /// Whether it holds for one sphere in much fluid alone.
+    pub fn is_of_one_sphere(&self) -> bool {
+        self.row.of_one_sphere
     }
 
     /// Its keys, if they are of this type.

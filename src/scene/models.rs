@@ -206,16 +206,6 @@ impl Models {
     pub fn cohesion_names(&self) -> Vec<&'static str> {
         names(&self.cohesion)
     }
-
-    /// Names of the drag laws.
-    pub fn drag_names(&self) -> Vec<&'static str> {
-        self.drag.iter().map(|row| row.name()).collect()
-    }
-
-    /// Names of the heat sub-models.
-    pub fn heat_names(&self) -> Vec<&'static str> {
-        names(&self.heat)
-    }
 }
 
 /// Adds a row to others, in place of that of the same name.

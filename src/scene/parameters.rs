@@ -17,7 +17,7 @@ pub struct Parameter {
     /// Its value in this scene.
     pub value: f64,
     /// Its unit; none for a whole number.
-    pub unit: Option<&'static str>,
+    pub unit: Option<String>,
     /// Which numbers it takes.
     pub range: Range,
     /// Whether it may be changed between communication steps.

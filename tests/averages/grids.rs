@@ -1,12 +1,13 @@
 //! Grids: a cell has what a region of the same box has; in sum the cells have what all has; the same bits whatever the threads, the
 //! way through bytes and the scale.
 
-use crate::averages::regions::{PLANES, Vector, apart, bed, value};
-use crate::support::{checked, read, start};
-use cograin::averages::{self, Content, Tensor};
-use cograin::interface::{self, Interface, Value};
+use crate::averages::regions::scenes::{PLANES, Vector, apart, bed};
+use crate::support::{checked, read, start, value};
+use cograin::averages::{Content, Tensor};
+use cograin::interface::{Interface, Value};
 use cograin::simulation::Simulation;
 use cograin::state::State;
+use cograin::{averages, interface};
 use std::f64::consts::PI;
 
 /// Everything that cells have in a scene without heat.

@@ -1,8 +1,9 @@
 //! Regions inside of meshes: what they say is what boxes of the same shape say, and nothing depends on how the work is shared.
 
-use crate::averages::regions::{PLANES, PRESSED, Vector, apart, bed, bed_with, value};
-use crate::support::start_with;
-use cograin::averages::{self, Tensor};
+use crate::averages::regions::scenes::{PLANES, PRESSED, Vector, apart, bed, bed_with};
+use crate::support::{start_with, value};
+use cograin::averages;
+use cograin::averages::Tensor;
 use cograin::interface::Interface;
 use cograin::quantity::BoundaryIndex;
 use std::collections::BTreeMap;
@@ -64,7 +65,7 @@ fn regions_of_spheres_on_a_lattice_with_centres_on_faces_edges_and_corners() {
 
 /// The box of `box.obj`, and a tetrahedron.
 fn mesh_files() -> BTreeMap<String, Vec<u8>> {
-    let mut files = crate::averages::regions::box_file();
+    let mut files = crate::averages::regions::scenes::box_file();
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
     files.insert("corner.obj".to_owned(), text.as_bytes().to_vec());
     files

@@ -1,16 +1,8 @@
 //! Where the energy of bonds and contacts is: elastic, taken by damping and relaxation, released by breakage.
 
-use crate::support::start;
-use cograin::interface::Interface;
+use crate::support::{start, value};
 use cograin::simulation::Simulation;
 use cograin::state::ledger::Source as Kind;
-
-/// The value of a variable.
-fn value(simulation: &Simulation, name: &str) -> f64 {
-    let interface = Interface::of(simulation.scene());
-    let index = interface.find(name).unwrap_or_else(|| panic!("no variable {name}"));
-    interface.value(simulation, index).number()
-}
 
 /// A bent chain over a plane to which its first sphere is bonded, in motion in space.
 const CHAIN: &str = r#"

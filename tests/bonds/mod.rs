@@ -8,8 +8,7 @@ mod order;
 mod suppressed_contacts;
 mod vibrating;
 
-use crate::support::start;
-use cograin::interface::Interface;
+use crate::support::{start, value};
 use cograin::simulation::{Placement, Simulation};
 use cograin::state::Break;
 
@@ -42,12 +41,6 @@ breakage = { max_distance = 1.21e-3 }
 /// That scene with a velocity of the sphere and a formulation.
 fn bonded(velocity: &str, formulation: &str) -> Simulation {
     start(&BONDED.replace("VELOCITY", velocity).replace("FORMULATION", formulation))
-}
-
-/// The value of a variable.
-fn value(simulation: &Simulation, name: &str) -> f64 {
-    let interface = Interface::of(simulation.scene());
-    interface.value(simulation, interface.find(name).unwrap()).number()
 }
 
 /// The formulations whose bond depends on the step only by a truncation error.

@@ -1,7 +1,6 @@
 //! Boundaries that move with another one, as parts of one machine.
 
-use crate::averages::regions::value;
-use crate::support::{checked, read, scene, start};
+use crate::support::{checked, read, scene, start, value};
 use cograin::interface::{Interface, Value};
 use cograin::simulation::{Description, Simulation};
 

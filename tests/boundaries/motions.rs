@@ -1,6 +1,6 @@
 //! Boundaries driven by velocity and along tables of files.
 
-use crate::support::{start, start_with};
+use crate::support::{assert_near, start, start_with};
 use cograin::quantity::BoundaryIndex;
 use cograin::simulation::Simulation;
 
@@ -47,12 +47,6 @@ const PLANE: &str = "plane = { point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0]
 
 /// A disc.
 const DISC: &str = "disc = { centre = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0], radius = 0.5 }\n";
-
-/// Fails unless two numbers agree within a share of the second.
-#[track_caller]
-fn assert_near(found: f64, expected: f64, tolerance: f64) {
-    assert!((found - expected).abs() <= tolerance * expected.abs(), "{found:e}, not {expected:e}");
-}
 
 #[test]
 fn driven_by_velocity_is_driven_by_the_displacement_that_it_makes() {

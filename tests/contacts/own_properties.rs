@@ -135,9 +135,9 @@ fn they_are_parameters_of_the_unit() {
     let found = scene(SCENE).unwrap();
     let parameter = |name: &str| found.parameters.iter().find(|parameter| parameter.name == name).unwrap();
     let film = parameter("pair.a.a.film_damping");
-    assert_eq!((film.value, film.unit, film.tunable), (2.0, Some("kg/s"), true));
+    assert_eq!((film.value, film.unit.as_deref(), film.tunable), (2.0, Some("kg/s"), true));
     let cover = parameter("material.a.cover");
-    assert_eq!((cover.value, cover.unit, cover.tunable), (0.5, Some("1"), false));
+    assert_eq!((cover.value, cover.unit.as_deref(), cover.tunable), (0.5, Some("1"), false));
 }
 
 /// The relative velocity of the two along y after 2 ms, over that at the start.

@@ -1,6 +1,6 @@
 //! The physical energy book: what each kind of loss takes, by itself, against theory and against the energy that is gone.
 
-use crate::support::start;
+use crate::support::{assert_near, start, velocity_of_first};
 use cograin::interface::Interface;
 use cograin::quantity::BoundaryIndex;
 use cograin::simulation::Simulation;
@@ -14,12 +14,6 @@ fn lost(simulation: &Simulation, loss: Loss) -> f64 {
 /// All losses together \[J\].
 fn sum(simulation: &Simulation) -> f64 {
     simulation.losses().expect("the scene books losses").iter().sum()
-}
-
-/// Asserts that a number is within a part of another.
-fn assert_near(found: f64, expected: f64, part: f64) {
-    let off = (found - expected).abs();
-    assert!(off <= part * expected.abs(), "{found:e}, not {expected:e}: off by {:e} of it", off / expected.abs());
 }
 
 /// Radius \[m\] of the sphere of [`on_plane`].
@@ -57,19 +51,12 @@ losses = true
     ))
 }
 
-/// Velocity of the first particle \[m/s\].
-fn velocity(simulation: &Simulation) -> [f64; 3] {
-    let particles = &simulation.state().particles;
-    let [x, y, z, _] = particles.velocity[particles.slot[0] as usize];
-    [x, y, z]
-}
-
 #[test]
 fn an_impact_loses_in_its_dashpot_what_restitution_says() {
     let law = "[contact.touch.normal.hertz]";
     let mut simulation = on_plane("[run]\nstep = 2.0e-7", law, RADIUS + 1e-6, [0.0, 0.0, -0.2]);
     simulation.advance(2e-3).expect("it runs");
-    let rebound = velocity(&simulation)[2];
+    let rebound = velocity_of_first(&simulation)[2];
     assert!(rebound > 0.0, "it has left");
     // What is gone, and what the coefficient of restitution says is gone.
     let damped = lost(&simulation, Loss::NormalDamping);
@@ -93,7 +80,7 @@ fn a_sphere_that_slides_until_it_rolls_loses_two_sevenths_of_its_energy() {
     let part = 1.0 / (1.0 + 2.5 * (1.0 - 0.5 * overlap / RADIUS).powi(2));
     assert_near(part, 2.0 / 7.0, 2e-3);
     // The spring that µ m g has stretched swings on: velocities by µ g over its frequency.
-    assert_near(velocity(&simulation)[0], 1.0 - part, 1e-3);
+    assert_near(velocity_of_first(&simulation)[0], 1.0 - part, 1e-3);
     assert_near(lost(&simulation, Loss::Sliding), 0.5 * MASS * part, 2e-4);
     assert_near(sum(&simulation), 0.5 * MASS * part, 2e-4);
 }
@@ -136,7 +123,7 @@ fn sticky_spheres_lose_as_they_part_what_their_neck_holds() {
     let law = "[contact.touch.normal.jkr]";
     let mut simulation = on_plane("[run]\nstep = 1.0e-7", law, RADIUS + 1e-7, [0.0, 0.0, -0.3]);
     simulation.advance(3e-3).expect("it runs");
-    let rebound = velocity(&simulation)[2];
+    let rebound = velocity_of_first(&simulation)[2];
     assert!(rebound > 0.0, "it has left");
     let gone = 0.5 * MASS * (0.09 - rebound * rebound);
     assert!(gone > 0.0);

@@ -1,6 +1,6 @@
 //! Clumps that come and go: counted, booked, at their rates, and the same bits whoever works on them and wherever a run is taken up.
 
-use crate::exchange::begun;
+use crate::exchange::{MANY, begun};
 use crate::support::{read, scene};
 use cograin::lanes::Width;
 use cograin::scene::Scene;
@@ -129,7 +129,7 @@ fn clumps_and_spheres_that_come_and_go_are_counted_apart_and_booked() {
 #[test]
 fn the_bits_are_the_same_for_lanes_threads_and_wherever_a_run_is_taken_up() {
     let at = |threads: usize, width| {
-        let scene = scene(&falling("").replace("seed = 7", &format!("seed = 7\nthreads = {threads}")));
+        let scene = scene(&falling(MANY).replace("seed = 7", &format!("seed = 7\nthreads = {threads}")));
         let mut simulation = begun(&scene, width);
         let mut told = Vec::new();
         for _ in 0..8 {
@@ -142,7 +142,7 @@ fn the_bits_are_the_same_for_lanes_threads_and_wherever_a_run_is_taken_up() {
     let right = at(1, Width::widest());
     assert_eq!(at(1, Width::Least), right);
     assert_eq!(at(3, Width::Four), right);
-    let scene = scene(&falling(""));
+    let scene = scene(&falling(MANY));
     let mut simulation = begun(&scene, Width::widest());
     for place in 0..6 {
         simulation.advance(0.02).unwrap();

@@ -59,6 +59,13 @@ losses = true
     )
 }
 
+/// Spheres aside that touch nothing: with them there are enough for several threads.
+pub(crate) const MANY: &str = r#"
+[particles.many]
+material = "glass"
+lattice = { kind = "simple_cubic", radius = 0.001, spacing = 0.003, counts = [13, 13, 13], origin = [0.1, 0.0, 0.0] }
+"#;
+
 /// What is known of particles that come and go.
 fn exchange(simulation: &Simulation) -> &cograin::state::Exchange {
     simulation.state().exchange.as_ref().unwrap()
@@ -143,7 +150,7 @@ fn the_bits_are_the_same_for_every_lane_width_and_wherever_a_run_is_taken_up() {
 #[test]
 fn threads_leave_the_bits_as_they_are() {
     let threads = |count: usize| {
-        let scene = scene(&falling("").replace("seed = 7", &format!("seed = 7\nthreads = {count}")));
+        let scene = scene(&falling(MANY).replace("seed = 7", &format!("seed = 7\nthreads = {count}")));
         let mut simulation = begun(&scene, Width::widest());
         simulation.advance(0.08).unwrap();
         simulation.state().fingerprint()

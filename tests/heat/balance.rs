@@ -1,14 +1,8 @@
 //! Heat is kept to rounding.
 
 use super::{GRAINS, assert_close};
-use crate::support::start;
+use crate::support::{start, uniform};
 use std::fmt::Write as _;
-
-/// Numbers from 0 to 1, the same each time.
-fn uniform(state: &mut u64) -> f64 {
-    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
 
 /// A pile of 4 × 4 × 4 spheres of several temperatures and sizes that falls on a floor.
 pub(super) fn pile(floor: &str, spread: f64) -> String {

@@ -1,7 +1,7 @@
 //! Thermal variables of the unit: names, values, derivatives.
 
 use super::{GRAINS, assert_close, row};
-use crate::support::start;
+use crate::support::{start, value};
 use cograin::interface::{Derivatives, Interface, Value};
 use cograin::simulation::Simulation;
 
@@ -17,13 +17,6 @@ fn begin() -> Simulation {
          [region.half]\nbox = [[-0.01, -0.01, -0.01], [9.95e-4, 0.01, 0.01]]\n\
          [probe.second]\nparticle = 2\n[probe.both]\nset = \"all\"\n"
     ))
-}
-
-/// The value of a variable.
-fn value(simulation: &Simulation, name: &str) -> f64 {
-    let interface = Interface::of(simulation.scene());
-    let index = interface.find(name).unwrap_or_else(|| panic!("{name} is not there"));
-    interface.value(simulation, index).number()
 }
 
 #[test]

@@ -4,9 +4,8 @@
 //! is pressed with K σ and friction is at its limit, so σ = ρ g D/(4 µ K) (1 − exp(−4 µ K z/D)). The mean of σ_xx and σ_yy in a slice is what presses on
 //! its wall, so the regions tell K; µ is that of the wall, which must be smoother than the filling is inside.
 
-use crate::averages::regions::value;
 use crate::physics::stage::assert_close;
-use crate::support::start;
+use crate::support::{start, value};
 use std::f64::consts::PI;
 
 /// Friction at the wall.

@@ -7,4 +7,5 @@ mod random_scenes;
 pub(crate) mod stable;
 mod stages;
 mod starting;
+mod threads;
 mod touching_starts;

@@ -196,10 +196,8 @@ fn is_same(part: Part, a: &State, b: &State) -> bool {
 fn written(mut simulation: Simulation, steps: u32) -> BTreeSet<(&'static str, String)> {
     let found = Arc::new(Mutex::new(BTreeSet::new()));
     let (told, mut before) = (Arc::clone(&found), None::<State>);
-    // Before the first stage of a step the clock goes on, and what is looked at between steps may write.
-    let first = simulation.stages().next().map(|(_, stage)| stage.name);
     simulation.watch(Box::new(move |name, state| {
-        if let Some(before) = before.as_ref().filter(|_| Some(name) != first) {
+        if let Some(before) = before.as_ref().filter(|_| name != "between time steps") {
             for part in Part::ALL.into_iter().filter(|part| !is_same(*part, before, state)) {
                 told.lock().expect("one thread tells").insert((name, format!("{part:?}")));
             }

@@ -1,5 +1,11 @@
 //! Scenes from text, for all tests of the library.
 
+mod builders;
+mod values;
+
+pub(crate) use builders::{DRIVEN, HERTZ_AND_FRICTION, Triangle, cell, glass, obj, spheres, uniform};
+pub(crate) use values::{assert_all_near, assert_near, set, value, velocity_of_first};
+
 use cograin::scene::{Scene, Source};
 use cograin::simulation::Simulation;
 use std::collections::BTreeMap;

@@ -15,9 +15,9 @@ mod value;
 
 pub use error::{SceneError, SceneErrors};
 pub(crate) use faults::Faults;
-pub(crate) use keys::keys;
+pub(crate) use keys::{Key, Table, keys};
 #[cfg(test)]
-pub(crate) use keys::{Key, Table, printed};
+pub(crate) use keys::{printed, printed_together};
 pub use mistake::Mistake;
 pub(crate) use phrases::{proposal, told_columns};
 pub(crate) use setting::apply;

@@ -6,5 +6,6 @@ mod sync;
 mod workers;
 
 pub(crate) use context::{CHUNK, Context};
+pub use context::{LoopEvent, LoopWatch};
 pub(crate) use helpers::Threads;
-pub(crate) use workers::Workers;
+pub(crate) use workers::{Workers, are_many};

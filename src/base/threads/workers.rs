@@ -1,17 +1,26 @@
 //! The threads of one simulation.
 
 use super::helpers::Threads;
+use std::cell::Cell;
+use std::marker::PhantomData;
 use std::sync::Arc;
 use std::thread::{Builder, JoinHandle};
 
-/// Fewer particles than this are not worth a second thread.
+/// Fewer particles than this are not worth a second thread (`docs/decisions/361`).
 const FEW: usize = 2000;
+
+/// Whether so many particles are worth helpers.
+pub(crate) fn are_many(particles: usize) -> bool {
+    particles >= FEW
+}
 
 /// Threads of its own, so that two simulations in one process do not disturb each other; joined when dropped.
 #[derive(Default)]
 pub(crate) struct Workers {
     /// The helpers; none where one thread works.
     helpers: Option<Helpers>,
+    /// They work for one thread at a time: two may not share this.
+    alone: PhantomData<Cell<()>>,
 }
 
 /// The first thread's helpers.
@@ -64,11 +73,11 @@ impl Workers {
     /// As many threads as asked for, or as the machine offers; one for a few particles.
     pub(crate) fn new(threads: Option<usize>, particles: usize) -> Self {
         let offered = || std::thread::available_parallelism().map_or(1, usize::from);
-        if particles < FEW {
+        if !are_many(particles) {
             return Self::default();
         }
         let threads = threads.filter(|&threads| threads > 0).unwrap_or_else(offered);
-        Self { helpers: if threads < 2 { None } else { Helpers::start(threads) } }
+        Self { helpers: if threads < 2 { None } else { Helpers::start(threads) }, alone: PhantomData }
     }
 
     /// How many threads work.
@@ -82,6 +91,11 @@ impl Workers {
         if self.helpers.as_ref().is_some_and(|helpers| !helpers.are_here()) {
             self.helpers = Helpers::start(self.count());
         }
-        work(self.helpers.as_ref().map(|helpers| &*helpers.threads))
+        self.lend(work)
+    }
+
+    /// The same, where helpers that another process has are not started anew. Work calls no other work of the same helpers.
+    pub(crate) fn lend<T>(&self, work: impl FnOnce(Option<&Threads>) -> T) -> T {
+        work(self.helpers.as_ref().filter(|helpers| helpers.are_here()).map(|helpers| &*helpers.threads))
     }
 }

@@ -64,7 +64,7 @@ impl Energies {
 pub(crate) struct Encounters<'a> {
     /// The threads.
     context: &'a Context<'a>,
-    /// How many contacts each body has, up to 2: particles by slot, behind them the other bodies.
+    /// How many contacts the body has that moves each particle (slot), or those that bonds hold together with it, up to 2.
     contacts: Vec<u8>,
     /// Bodies that bonds hold together, where any do.
     clusters: Option<&'a Clusters>,
@@ -131,6 +131,10 @@ impl<'a> Encounters<'a> {
                 }
             }
         }
+        // They were counted at one particle or body for all that move together.
+        for slot in 0..state.particles.len() {
+            contacts[slot] = contacts[mover(state, clusters, slot as u32)];
+        }
         let acceleration = fields.acceleration(&state.particles);
         let energies = Energies::default();
         Self { context, contacts, clusters, fields, bodies, speeds, whole, time, acceleration, energies }
@@ -149,13 +153,18 @@ impl<'a> Encounters<'a> {
         (first, second): (u32, Option<u32>),
         touches: impl FnOnce() -> bool,
     ) -> Option<Meetings> {
-        let body = mover(state, self.clusters, first);
-        let met = second.map(|second| mover(state, self.clusters, second));
-        let own = self.contacts[body];
-        let other = met.map_or(own, |met| self.contacts[met]);
-        let [least, most] = [own.min(other), own.max(other)];
+        let own = self.contacts[first as usize];
+        let other = second.map_or(own, |second| self.contacts[second as usize]);
+        let (least, most) = (own.min(other), own.max(other));
+        // Most pairs of a packing end here.
+        if !self.whole && least > 0 && most > 1 {
+            return None;
+        }
+        let mover = |slot| mover(state, self.clusters, slot);
         match (least, most) {
-            _ if met == Some(body) => (self.whole && touches()).then_some(Meetings::Packed),
+            _ if second.is_some_and(|second| mover(second) == mover(first)) => {
+                (self.whole && touches()).then_some(Meetings::Packed)
+            }
             (0, 0) => Some(Meetings::ComingImpact),
             (0, _) => Some(Meetings::ComingPacked),
             (1, 1) => touches().then_some(Meetings::Impact),
@@ -168,9 +177,13 @@ impl<'a> Encounters<'a> {
         if state.cell.is_some() || self.time.is_infinite() {
             return f64::INFINITY; // velocities in a cell are relative to the streaming motion
         }
-        let [v, u] = slots.map(|slot| Vector::from(state.particles.velocity[slot as usize]));
+        let particles = &state.particles;
+        let [v, u] = slots.map(|slot| Vector::from(particles.velocity[slot as usize]));
+        let [x, y] = slots.map(|slot| Vector::from(particles.position[slot as usize]));
+        let (relative, apart) = (v - u, x - y);
+        let closing = ROUNDING * relative.length() - relative.dot(apart) / apart.length();
         let gained = slots.map(|slot| self.gained(state, slot));
-        ((v - u).length() + gained[0] + gained[1] + self.acceleration * self.time) * self.time * (1.0 + ROUNDING)
+        ((closing + gained[0] + gained[1] + self.acceleration * self.time) * self.time * (1.0 + ROUNDING)).max(0.0)
     }
 
     /// What the group of a particle (slot) may add to its speed \[m/s\].

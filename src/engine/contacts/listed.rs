@@ -74,7 +74,7 @@ pub(crate) fn stiffness(
     tell: &mut dyn FnMut(Link),
 ) {
     let count = list.kept(state).flags.len();
-    if context.threads.is_none() {
+    if context.threads.is_none() && context.watch.is_none() {
         return (0..count).filter_map(|entry| link(list, state, ahead, entry)).for_each(tell);
     }
     let piece = |piece: usize| {

@@ -350,7 +350,7 @@ pub(crate) fn near_pairs(particles: &Particles, reach: f64, mut hand: impl FnMut
     if particles.is_empty() || reach <= 0.0 {
         return;
     }
-    let context = Context { step: 0.0, width: crate::base::lanes::Width::Least, threads: None };
+    let context = Context { step: 0.0, width: crate::base::lanes::Width::Least, threads: None, watch: None };
     let sizes = Sizes::single(0.5 * reach, particles.len());
     let grid = Grid::around(particles, &sizes, 0.0, 0.0, &context);
     let mut order = Order::default();

@@ -227,7 +227,7 @@ impl Simulation {
             left -= 1;
             underway.done += 1;
             let Underway { done, count, passed, length, .. } = *underway;
-            let context = Context { step, ..*standing };
+            let context = Context { step, threads: self.worth_while(standing.threads), ..*standing };
             self.count_divided();
             self.step(Progress { done, count, step, time: 0.0, passed, length }, &context)?;
             if self.boundaries_change_speed() {

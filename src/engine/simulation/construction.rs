@@ -72,6 +72,7 @@ impl Simulation {
             rollback: Rollback::default(),
             stop: None,
             watch: None,
+            loop_watch: None,
         };
         simulation.take_coefficients();
         simulation.choose_stages();

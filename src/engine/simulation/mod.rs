@@ -40,7 +40,8 @@ pub use stages::{Part, Phase, Stage, all_stages};
 pub use taken_over::Description;
 
 use crate::base::lanes::Width;
-use crate::base::threads::{Context, Threads, Workers};
+use crate::base::threads::{self, Context, Threads, Workers};
+pub use crate::base::threads::{LoopEvent, LoopWatch};
 use crate::engine::bodies::{ClumpBodies, RigidBody, Striker};
 use crate::engine::boundaries::course::BoundaryTravel;
 use crate::engine::boundaries::loads::BoundaryLoads;
@@ -112,6 +113,8 @@ pub struct Simulation {
     stop: Option<Arc<AtomicBool>>,
     /// In benchmarks, the function that is called after each stage of a time step.
     watch: Option<Watch>,
+    /// In benchmarks, who is told of the loops.
+    loop_watch: Option<LoopWatch>,
 }
 
 /// Working arrays of a time step. They are kept so that a step requests no memory.
@@ -137,13 +140,13 @@ struct Workspace {
     between: energy::PendingWork,
 }
 
-/// A function that gets the name of each stage of a time step when it is done, and the state then.
+/// A function that gets the name of each stage of a time step, or `between time steps`, when it is done, and the state then.
 pub type Watch = Box<dyn FnMut(&'static str, &State) + Send>;
 
 impl Simulation {
     /// What passes know while time does not advance.
     fn standing(&self) -> Context<'static> {
-        Context { step: 0.0, width: self.width, threads: None }
+        Context { step: 0.0, width: self.width, threads: None, watch: self.loop_watch }
     }
 
     /// Does work to which the helpers come, if there are any.
@@ -152,6 +155,11 @@ impl Simulation {
         let done = workers.run(|threads| work(self, threads));
         self.workers = workers;
         done
+    }
+
+    /// These helpers, if there are enough particles now: where some come and go their number changes.
+    fn worth_while<'a>(&self, threads: Option<&'a Threads>) -> Option<&'a Threads> {
+        threads.filter(|_| threads::are_many(self.state.particles.len()))
     }
 
     /// Uses this lane width from now on. Every width gives the same bits.
@@ -179,6 +187,11 @@ impl Simulation {
     /// Calls this function, from now on, after each stage of a time step: to measure what each costs.
     pub fn watch(&mut self, watch: Watch) {
         self.watch = Some(watch);
+    }
+
+    /// Tells this function, from now on, of the loops that threads share: each piece when it is done. For benchmarks.
+    pub fn watch_loops(&mut self, watch: LoopWatch) {
+        self.loop_watch = Some(watch);
     }
 
     /// What stands for bodies of several spheres where impacts are foreseen.

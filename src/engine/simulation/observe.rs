@@ -249,7 +249,7 @@ impl Simulation {
 
     /// A context for reading.
     pub(crate) fn quiet(&self) -> Context<'static> {
-        Context { step: 0.0, width: self.width, threads: None }
+        Context { step: 0.0, width: self.width, threads: None, watch: None }
     }
 }
 

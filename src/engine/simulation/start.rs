@@ -133,7 +133,7 @@ impl Simulation {
             }
         }
         if let Some(cell) = &self.cell {
-            cell.begin_mean(&mut self.state, &Context { step: 0.0, width: self.width, threads: None });
+            cell.begin_mean(&mut self.state, &Context { step: 0.0, width: self.width, threads: None, watch: None });
         }
         for nodes in &mut self.state.nodes {
             nodes.mean_force.clone_from(&nodes.force);

@@ -8,6 +8,9 @@ use crate::engine::state::Heat;
 use crate::laws::bond::creation::Moment;
 use crate::laws::motion::Progress;
 
+/// What is done between time steps: looks, and what communication steps begin and end with.
+const BETWEEN: &str = "between time steps";
+
 /// What the stages of a time step, or of an evaluation of the forces alone, tell each other.
 pub(super) struct TimeStep<'a> {
     /// Where the communication step stands when the time step ends.
@@ -82,6 +85,7 @@ impl Simulation {
     /// An error leaves the state after the whole step.
     pub(super) fn step(&mut self, progress: Progress, context: &Context) -> Result<(), RunError> {
         let moment = self.advance_clock(context.step);
+        self.tell_done(BETWEEN);
         let mut step = TimeStep::of(Progress { time: moment.to, ..progress }, moment, context);
         for phase in Phase::ALL {
             if phase != Phase::Forces || !self.scene.heat.frozen {
@@ -109,9 +113,14 @@ impl Simulation {
             }
             let stage = self.stages.in_phase(phase)[place];
             (stage.run)(self, step);
-            if let Some(watch) = &mut self.watch {
-                watch(stage.name, &self.state);
-            }
+            self.tell_done(stage.name);
+        }
+    }
+
+    /// Tells who watches, if anybody does, that this is done.
+    fn tell_done(&mut self, part: &'static str) {
+        if let Some(watch) = &mut self.watch {
+            watch(part, &self.state);
         }
     }
 

@@ -6,11 +6,14 @@
 //! over the traces of the blocks ([`super::shares`]); whatever they find is a bound. Most bodies are far below it. Those that
 //! are not are taken together where that brings the bound down ([`super::cluster`]).
 
-use super::network::{Element, Network, single};
+use super::ends::Ends;
+use super::network::{Element, Network, UNMOVED, single};
 use super::shares::{Shares, divided};
 use super::triangle::{EMPTY, Place, Triangle, add_group, norm_squared, whole};
+use crate::base::threads::{CHUNK, Context};
 use crate::engine::contacts::Link;
 use nalgebra::{Matrix6, Vector6};
+use std::ops::Range;
 
 /// How often bodies hand load on.
 const RELIEFS: usize = 3;
@@ -27,24 +30,29 @@ pub(super) const ROUNDING: f64 = 1e-5;
 /// Where iterations begin: across no direction that a block is likely to single out.
 const ASKEW: [f64; 6] = [0.5, 0.4, 0.35, 0.45, 0.3, 0.4];
 
+/// D(K) \[1/s²\] and D(C) \[1/s\] of a body.
+type Own = [Triangle; 2];
+
 /// Own blocks of all bodies.
 pub(super) struct Blocks<'a> {
     /// The network.
     network: &'a Network<'a>,
+    /// The threads.
+    context: &'a Context<'a>,
+    /// The ends of its interactions, body by body.
+    ends: Ends,
     /// What each body bears of what it shares with another.
     shares: Shares<'a>,
-    /// D(K) of each body \[1/s²\].
-    stiffness: Vec<Triangle>,
-    /// D(C) of each body \[1/s\]; empty where nothing is damped.
-    damping: Vec<Triangle>,
+    /// Those of each body.
+    own: Vec<Own>,
 }
 
 /// The motion that the bound of one body comes from: of this body alone, about, scaled as the network is.
-pub(super) fn critical_motion(network: &Network, root: f64, mover: usize) -> Vec<[f64; 6]> {
+pub(super) fn critical_motion(network: &Network, root: f64, mover: usize, context: &Context) -> Vec<[f64; 6]> {
     /// Iterations after which it stands out.
     const ITERATIONS: usize = 60;
     let mut motion = vec![[0.0; 6]; network.movers()];
-    let mut blocks = Blocks::of(network, root);
+    let mut blocks = Blocks::of(network, root, context);
     blocks.add(|other| other == mover);
     motion[mover] = ASKEW;
     blocks.estimate(&mut motion[mover], mover, root, ITERATIONS);
@@ -57,9 +65,10 @@ pub(super) fn quick_root(
     bodies: &Network,
     supports: Vec<(Element, [f64; 4])>,
     tell: impl FnOnce(&mut dyn FnMut(Link)),
+    context: &Context,
 ) -> (f64, Option<usize>) {
-    let (movers, shares) = (bodies.movers(), Shares::of_none(bodies));
-    let mut blocks = Blocks { network: bodies, shares, stiffness: vec![EMPTY; movers], damping: Vec::new() };
+    let (ends, shares) = (Ends::default(), Shares::of_none(bodies));
+    let mut blocks = Blocks { network: bodies, context, ends, shares, own: vec![[EMPTY; 2]; bodies.movers()] };
     tell(&mut |link| blocks.add_link(&link));
     for (element, stiffness) in supports {
         blocks.add_parts(&element, [stiffness, [0.0; 4]]);
@@ -70,21 +79,17 @@ pub(super) fn quick_root(
 
 impl<'a> Blocks<'a> {
     /// Those of a network; shares are weighed about this root \[1/s\], or one of their own.
-    pub(super) fn filled(network: &'a Network<'a>, guess: f64) -> Self {
-        let mut blocks = Self::of(network, guess);
+    pub(super) fn filled(network: &'a Network<'a>, guess: f64, context: &'a Context<'a>) -> Self {
+        let mut blocks = Self::of(network, guess, context);
         blocks.add(|_| true);
         blocks
     }
 
     /// Empty ones; shares are weighed about this root \[1/s\], or one of their own.
-    fn of(network: &'a Network<'a>, guess: f64) -> Self {
-        let movers = network.movers();
-        Self {
-            network,
-            shares: Shares::of(network, guess),
-            stiffness: vec![EMPTY; movers],
-            damping: vec![EMPTY; if network.is_damped() { movers } else { 0 }],
-        }
+    fn of(network: &'a Network<'a>, guess: f64, context: &'a Context<'a>) -> Self {
+        let ends = Ends::of(network.movers(), &network.bodies);
+        let shares = Shares::of(network, &ends, guess, context);
+        Self { network, context, ends, shares, own: vec![[EMPTY; 2]; network.movers()] }
     }
 }
 
@@ -108,12 +113,9 @@ impl Blocks<'_> {
         }
         // As a network keeps them.
         let parts = parts.map(|parts| parts.map(single));
-        if self.damping.is_empty() && parts[1] != [0.0; 4] {
-            self.damping = vec![EMPTY; self.stiffness.len()];
-        }
         for end in 0..2 {
             if let Some(mover) = movers[end] {
-                self.add_end(mover, (element, end), parts, shares[end]);
+                add_end(self.network, (mover, &mut self.own[mover]), (element, end), parts, shares[end]);
             }
         }
     }
@@ -125,7 +127,7 @@ impl Blocks<'_> {
 
     /// The largest root of all bodies, from the safe side, and the body that has it.
     pub(super) fn largest_of_all(&self) -> (f64, Option<usize>) {
-        self.largest(0..self.network.movers(), 0.0)
+        self.largest(|_| true, 0.0)
     }
 
     /// Lets bodies whose root is above this one \[1/s\] hand load on to their neighbours; tells which of all bodies still are.
@@ -138,10 +140,7 @@ impl Blocks<'_> {
             }
             let touched = self.with_neighbours(&above);
             for mover in (0..touched.len()).filter(|&mover| touched[mover]) {
-                self.stiffness[mover] = EMPTY;
-                if let Some(block) = self.damping.get_mut(mover) {
-                    *block = EMPTY;
-                }
+                self.own[mover] = [EMPTY; 2];
             }
             self.add(|mover| touched[mover]);
             for mover in (0..touched.len()).filter(|&mover| touched[mover]) {
@@ -152,88 +151,76 @@ impl Blocks<'_> {
     }
 
     /// Adds all elements to the blocks of the bodies that are chosen.
-    fn add(&mut self, chosen: impl Fn(usize) -> bool) {
-        for place in 0..self.network.elements.len() {
-            if !self.network.elements[place].slots.iter().any(|slot| self.network.mover(*slot).is_some_and(&chosen)) {
-                continue;
+    fn add(&mut self, chosen: impl Fn(usize) -> bool + Sync + Send) {
+        let Self { network, ends, shares, own, .. } = self;
+        self.context.update(own, |mover, own| {
+            let ends = if chosen(mover) { ends.each_of(mover) } else { return };
+            for (place, end) in ends {
+                let parts = [network.stiffness.of(place), network.damping.of(place)];
+                let element = (&network.elements[place], end);
+                add_end(network, (mover, own), element, parts, shares.borne(place)[end]);
             }
-            for (end, borne) in self.shares.borne(place).into_iter().enumerate() {
-                if let Some((mover, factor)) = borne.filter(|(mover, _)| chosen(*mover)) {
-                    let network = self.network;
-                    let parts = [network.stiffness.of(place), network.damping.of(place)];
-                    self.add_end(mover, (&network.elements[place], end), parts, factor);
-                }
-            }
-        }
+        });
+    }
+
+    /// The bodies of which this is true.
+    fn those(&self, chosen: impl Fn(usize) -> bool + Sync + Send) -> Vec<bool> {
+        let mut those = vec![false; self.network.movers()];
+        self.context.update(&mut those, |mover, that| *that = chosen(mover));
+        those
     }
 
     /// The bodies whose root is not below this one \[1/s\].
     pub(super) fn above(&self, root: f64) -> Vec<bool> {
-        (0..self.network.movers()).map(|mover| !self.is_below(mover, root)).collect()
+        self.those(|mover| !self.is_below(mover, root))
+    }
+
+    /// The body at the other end of an interaction, if one moves there.
+    fn other(&self, (place, end): (usize, usize)) -> Option<usize> {
+        Some(self.network.bodies[place][1 - end]).filter(|other| *other != UNMOVED).map(|other| other as usize)
     }
 
     /// These bodies and their neighbours.
     pub(super) fn with_neighbours(&self, chosen: &[bool]) -> Vec<bool> {
-        let mut more = chosen.to_vec();
-        for element in &self.network.elements {
-            if let [Some(a), Some(b)] = element.slots.map(|slot| self.network.mover(slot)) {
-                more[a] |= chosen[b];
-                more[b] |= chosen[a];
+        let is_chosen = |end| self.other(end).is_some_and(|other| chosen[other]);
+        self.those(|mover| chosen[mover] || self.ends.each_of(mover).any(is_chosen))
+    }
+
+    /// So many of these bodies, or fewer, that are next to this one, by contacts among them.
+    pub(super) fn nearest(&self, chosen: &[bool], mover: usize, most: usize) -> Vec<bool> {
+        let (mut near, mut found, mut next) = (vec![false; chosen.len()], vec![mover], 0);
+        near[mover] = true;
+        while next < found.len() && found.len() < most {
+            for other in self.ends.each_of(found[next]).filter_map(|end| self.other(end)) {
+                if chosen[other] && !near[other] {
+                    near[other] = true;
+                    found.push(other);
+                }
             }
+            next += 1;
         }
-        more
+        near
     }
 
     /// The network of these bodies alone, to which all others stand still: what two of them share, and what one shares with
     /// others as often as it bears it, or only once.
     pub(super) fn together(&self, chosen: &[bool], once: bool) -> Network<'_> {
-        let borne = |place: usize, end: usize| match self.shares.borne(place)[end] {
-            Some((_, factor)) if !once => factor,
-            _ => 1.0,
-        };
+        let borne = |place: usize, end: usize| if once { 1.0 } else { self.shares.borne(place)[end] };
         self.network.part(chosen, borne)
-    }
-
-    /// Adds one end of an element, with its springs and dashpots, to the block of its body, which bears this share of them.
-    fn add_end(
-        &mut self,
-        mover: usize,
-        (element, end): (&Element, usize),
-        [stiffness, damping]: [[f64; 4]; 2],
-        share: f64,
-    ) {
-        let network = self.network;
-        let damped = damping != [0.0; 4];
-        match mover.checked_sub(network.roots.len()) {
-            None => {
-                let place = Place::of(element, end, network.roots[mover], share);
-                place.add(&mut self.stiffness[mover], stiffness);
-                if damped {
-                    place.add(&mut self.damping[mover], damping);
-                }
-            }
-            Some(group) => {
-                let Some(group) = &network.groups[group] else { return };
-                let arm = network.arm(element, end, group).to_array();
-                add_group(&mut self.stiffness[mover], element.normal, arm, stiffness, group, share);
-                if damped {
-                    add_group(&mut self.damping[mover], element.normal, arm, damping, group, share);
-                }
-            }
-        }
     }
 
     /// D(K) and D(C) of a body.
     fn block(&self, mover: usize) -> Block {
-        Block { stiffness: whole(&self.stiffness[mover]), damping: self.damping.get(mover).map(whole) }
+        let [stiffness, damping] = self.own[mover].each_ref().map(whole);
+        Block { stiffness, damping }
     }
 
     /// Whether the root of a body is below this one: whether μ² − D(K) − μ D(C) is positive definite.
     fn is_below(&self, mover: usize, root: f64) -> bool {
         let square = root * root;
+        let [stiffness, damping] = &self.own[mover];
         // No eigenvalue is above the norm of all entries: most bodies need no more.
-        let damping = self.damping.get(mover).unwrap_or(&EMPTY);
-        norm_squared(&self.stiffness[mover], damping, root) < square * square
+        norm_squared(stiffness, damping, root) < square * square
             || (Matrix6::from_diagonal_element(square) - self.block(mover).combined(root)).cholesky().is_some()
     }
 
@@ -253,50 +240,103 @@ impl Blocks<'_> {
         root
     }
 
-    /// The largest root of these bodies that is above `floor`, from the safe side, and the body that has it.
-    pub(super) fn largest(&self, movers: impl Iterator<Item = usize>, floor: f64) -> (f64, Option<usize>) {
+    /// The largest root of the bodies that are chosen and above `floor`, from the safe side, and the body that has it.
+    pub(super) fn largest(&self, chosen: impl Fn(usize) -> bool + Sync + Send, floor: f64) -> (f64, Option<usize>) {
         let (mut most, mut at) = (floor, None);
-        for mover in movers {
-            let is_empty =
-                || self.stiffness[mover] == EMPTY && self.damping.get(mover).is_none_or(|block| *block == EMPTY);
-            let is_passed = if most > 0.0 { self.is_below(mover, most) } else { is_empty() };
-            if is_passed {
-                continue;
+        let is_passed = |mover: usize, most: f64| match most > 0.0 {
+            true => most.is_infinite() || self.is_below(mover, most),
+            false => self.own[mover] == [EMPTY; 2],
+        };
+        // What is below a root that was found earlier is below a larger one.
+        for movers in rounds(self.network.movers()) {
+            let (begin, count, known) = (movers.start, movers.len(), most);
+            let pieces = self.context.collect(count.div_ceil(CHUNK), |piece| {
+                let movers = begin + piece * CHUNK..begin + ((piece + 1) * CHUNK).min(count);
+                movers.filter(|&mover| chosen(mover) && !is_passed(mover, known)).collect::<Vec<_>>()
+            });
+            for mover in pieces.into_iter().flatten() {
+                if is_passed(mover, most) {
+                    continue;
+                }
+                let mut vector = ASKEW;
+                most = self.estimate(&mut vector, mover, most, ITERATIONS).max(most) * TRIAL;
+                // A block that holds no number has no root; the trial then ends at infinity.
+                let mut growth = TRIAL;
+                while most.is_finite() && !self.is_below(mover, most) {
+                    most *= growth;
+                    growth *= TRIAL;
+                }
+                at = Some(mover);
             }
-            let mut vector = ASKEW;
-            most = self.estimate(&mut vector, mover, most, ITERATIONS).max(most) * TRIAL;
-            // A block that holds no number has no root; the trial then ends at infinity.
-            let mut growth = TRIAL;
-            while most.is_finite() && !self.is_below(mover, most) {
-                most *= growth;
-                growth *= TRIAL;
-            }
-            at = Some(mover);
         }
         (most, at)
     }
 }
 
-/// D(K) \[1/s²\] and, where anything is damped, D(C) \[1/s\] of a body.
+/// Places up to this number, in rounds each of which is twice as long as those before.
+fn rounds(count: usize) -> impl Iterator<Item = Range<usize>> {
+    let ends = std::iter::successors(Some(0), move |from| (*from < count).then(|| (3 * from).max(CHUNK).min(count)));
+    ends.clone().zip(ends.skip(1)).map(|(from, to)| from..to)
+}
+
+/// Adds one end of an element, with its springs and dashpots, to the block of its body, which bears this share of them.
+fn add_end(
+    network: &Network,
+    (mover, own): (usize, &mut Own),
+    (element, end): (&Element, usize),
+    parts: [[f64; 4]; 2],
+    share: f64,
+) {
+    match mover.checked_sub(network.roots.len()) {
+        None => {
+            let place = Place::of(element, end, network.roots[mover], share);
+            for (block, parts) in own.iter_mut().zip(parts).filter(|(_, parts)| *parts != [0.0; 4]) {
+                place.add(block, parts);
+            }
+        }
+        Some(group) => {
+            let Some(group) = &network.groups[group] else { return };
+            let arm = network.arm(element, end, group).to_array();
+            for (block, parts) in own.iter_mut().zip(parts).filter(|(_, parts)| *parts != [0.0; 4]) {
+                add_group(block, element.normal, arm, parts, group, share);
+            }
+        }
+    }
+}
+
+/// D(K) \[1/s²\] and D(C) \[1/s\] of a body as whole matrices.
 struct Block {
     /// D(K).
     stiffness: Matrix6<f64>,
     /// D(C).
-    damping: Option<Matrix6<f64>>,
+    damping: Matrix6<f64>,
 }
 
 impl Block {
     /// D(K) + μ D(C).
     #[inline(always)]
     fn combined(&self, root: f64) -> Matrix6<f64> {
-        self.damping.map_or(self.stiffness, |damping| self.stiffness + damping * root)
+        self.stiffness + self.damping * root
     }
 
     /// The root of one motion.
     #[inline(always)]
     fn root_of_motion(&self, motion: &Vector6<f64>) -> f64 {
         let form = |block: &Matrix6<f64>| (block * motion).dot(motion);
-        let (k, c) = (form(&self.stiffness), self.damping.as_ref().map_or(0.0, form));
+        let (k, c) = (form(&self.stiffness), form(&self.damping));
         0.5 * (c + (c * c + 4.0 * k).max(0.0).sqrt())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_hold_every_place_once_and_in_order() {
+        for count in [0, 1, CHUNK, CHUNK + 1, 100_000] {
+            let all: Vec<usize> = rounds(count).flatten().collect();
+            assert!(all.iter().copied().eq(0..count), "{count}");
+        }
     }
 }

@@ -17,6 +17,12 @@ const SHARP: f64 = 0.93;
 /// Products by which the root is estimated.
 const PRODUCTS: usize = 20;
 
+/// Bodies of a part that may tell as much as all that limit the step,
+const FEW: usize = 4000;
+
+/// where these are so many times as many.
+const MANY: usize = 4;
+
 /// ε of a certificate without and with dashpots.
 const SHARES: [f64; 2] = [0.08, 0.05];
 
@@ -38,7 +44,7 @@ const GAIN: f64 = 0.99;
 /// The largest root μ = 2/Δt \[1/s\] of contacts without bonds, from the safe side, and the body that has it; none where several
 /// have it together. `guess` is a root found earlier, or 0.
 pub(super) fn largest_root(network: &Network, guess: f64, context: &Context) -> (f64, Option<usize>) {
-    let mut blocks = Blocks::filled(network, guess);
+    let mut blocks = Blocks::filled(network, guess, context);
     let bound = blocks.largest_of_all();
     let (root, mover) = sharpened(&mut blocks, bound, context);
     (root * (1.0 + ROUNDING), mover)
@@ -52,6 +58,14 @@ fn sharpened(blocks: &mut Blocks, bound: (f64, Option<usize>), context: &Context
     let share = SHARES[usize::from(blocks.is_damped())];
     let sharp = SHARP * bound.0;
     let limiting = blocks.with_neighbours(&blocks.above(sharp));
+    // A part of them alone has no larger root: in a lattice, where nearly all bodies limit, it tells as much.
+    let several = bound.1.filter(|_| limiting.iter().filter(|limits| **limits).count() > MANY * FEW);
+    if let Some(mover) = several {
+        let near = blocks.together(&blocks.nearest(&limiting, mover, FEW), true);
+        if Method::of(&near, context).below(sharp, PRODUCTS, &mut counter.clone()).is_none() {
+            return bound;
+        }
+    }
     let alone = blocks.together(&limiting, true);
     let Some([root, slope]) = Method::of(&alone, context).below(sharp, PRODUCTS, &mut counter) else { return bound };
     // Where √λ_max/√(1 − ε) = μ, about.
@@ -93,6 +107,5 @@ fn certified(
         let root = if blocks.is_damped() { certain * certain / tried } else { certain };
         return ((root, None), root < tried / CLOSE);
     }
-    let others = (0..chosen.len()).filter(|&mover| !chosen[mover]);
-    (blocks.largest(others, certain), certain > CLOSE * tried)
+    (blocks.largest(|mover| !chosen[mover], certain), certain > CLOSE * tried)
 }

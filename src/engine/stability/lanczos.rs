@@ -7,6 +7,7 @@
 //! Δt = 2/μ while λ_max(S(μ)) < μ², so λ ≤ θ/(1 − ε) ≤ μ² certifies it. The start comes from a hash of particle and counter, sums
 //! are taken piece by piece: the same bits for any number of threads.
 
+use super::ends::Ends;
 use super::network::{Element, Network, UNMOVED};
 use super::plain::Plain;
 use crate::base::lanes::Shared;
@@ -96,10 +97,8 @@ pub(super) struct Method<'a> {
     movers: Vec<u32>,
     /// Where the bodies at the ends of each element stand among them; [`UNMOVED`] for what does not move.
     ends_of: Vec<[u32; 2]>,
-    /// First end of each body in `ends`, and behind the last one their number.
-    starts: Vec<u32>,
-    /// Ends of elements, body by body: twice the element, and 1 more for its second end.
-    ends: Vec<u32>,
+    /// The ends of elements, body by body.
+    ends: Ends,
     /// Force and couple of each element.
     loads: Motions,
     /// The network once more, in place of all that, where it is one of contacts between particles.
@@ -110,13 +109,9 @@ impl<'a> Method<'a> {
     /// For this network.
     pub(super) fn of(network: &'a Network<'a>, context: &'a Context<'a>) -> Self {
         let mut places = vec![UNMOVED; network.movers()];
-        let mut ends_of: Vec<[u32; 2]> = Vec::with_capacity(network.elements.len());
-        for element in &network.elements {
-            let ends = element.slots.map(|slot| network.mover(slot).map_or(UNMOVED, |mover| mover as u32));
-            for end in ends.into_iter().filter(|end| *end != UNMOVED) {
-                places[end as usize] = 0;
-            }
-            ends_of.push(ends);
+        let mut ends_of = network.bodies.clone();
+        for end in ends_of.iter().flatten().filter(|end| **end != UNMOVED) {
+            places[*end as usize] = 0;
         }
         let movers: Vec<u32> = (0..places.len() as u32).filter(|&mover| places[mover as usize] == 0).collect();
         for (place, &mover) in movers.iter().enumerate() {
@@ -125,10 +120,10 @@ impl<'a> Method<'a> {
         for end in ends_of.iter_mut().flatten().filter(|end| **end != UNMOVED) {
             *end = places[*end as usize];
         }
-        let (starts, ends) = ends_by_body(movers.len(), &ends_of);
+        let ends = Ends::of(movers.len(), &ends_of);
         let plain = Plain::of(network, &movers, &ends_of);
         let loads = vec![[0.0; 6]; if plain.is_some() { 0 } else { ends_of.len() }];
-        Self { network, context, movers, ends_of, starts, ends, loads, plain }
+        Self { network, context, movers, ends_of, ends, loads, plain }
     }
 
     /// Degrees of freedom.
@@ -207,7 +202,7 @@ impl<'a> Method<'a> {
             }
             self.multiply(root, &now, &mut image);
             let along = self.dot(&now, &image);
-            self.each(&mut image, |body, image| {
+            self.context.update(&mut image, |body, image| {
                 for k in 0..6 {
                     image[k] -= along * now[body][k] + last * before[body][k];
                 }
@@ -225,7 +220,7 @@ impl<'a> Method<'a> {
                 beside.push(next);
             }
             let per_next = 1.0 / next;
-            self.each(&mut image, |_, image| *image = image.map(|part| per_next * part));
+            self.context.update(&mut image, |_, image| *image = image.map(|part| per_next * part));
             last = next;
             // The motion before gives its room to the next image.
             std::mem::swap(&mut before, &mut now);
@@ -251,7 +246,7 @@ impl<'a> Method<'a> {
     fn start(&self, counter: u64) -> Motions {
         let mut start = vec![[0.0; 6]; self.movers.len()];
         let state = self.network.state;
-        self.each(&mut start, |body, motion| {
+        self.context.update(&mut start, |body, motion| {
             let mover = self.movers[body] as usize;
             let name = match mover.checked_sub(self.network.roots.len()) {
                 None => u64::from(state.particles.id[mover]),
@@ -261,7 +256,7 @@ impl<'a> Method<'a> {
         });
         let length = self.dot(&start, &start).sqrt();
         if length > 0.0 {
-            self.each(&mut start, |_, motion| *motion = motion.map(|part| part / length));
+            self.context.update(&mut start, |_, motion| *motion = motion.map(|part| part / length));
         }
         start
     }
@@ -270,7 +265,7 @@ impl<'a> Method<'a> {
     fn multiply(&mut self, root: f64, motion: &Motions, image: &mut Motions) {
         let (network, context) = (self.network, self.context);
         if let Some(plain) = &mut self.plain {
-            return plain.multiply(root, (motion, image), (&self.starts, &self.ends), context);
+            return plain.multiply(root, (motion, image), &self.ends, context);
         }
         let (movers, ends_of) = (&self.movers, &self.ends_of);
         let moved = |place: usize, end: usize| {
@@ -289,15 +284,14 @@ impl<'a> Method<'a> {
                 *load = load_of(network, place, root, [moved(place, 0), moved(place, 1)]);
             }
         });
-        let (starts, ends, loads) = (&self.starts, &self.ends, &self.loads);
-        let share = |body: usize, image: &mut [f64; 6]| {
+        let (ends, loads) = (&self.ends, &self.loads);
+        context.update(image, |body, image| {
             let (mover, mut sum) = (movers[body] as usize, [0.0; 6]);
-            for &end in &ends[starts[body] as usize..starts[body + 1] as usize] {
-                add_load(network, mover, (end / 2) as usize, (end % 2) as usize, loads, &mut sum);
+            for (place, end) in ends.each_of(body) {
+                add_load(network, mover, place, end, loads, &mut sum);
             }
             *image = scaled_back(network, mover, &sum);
-        };
-        each(context, image, share);
+        });
     }
 
     /// Scalar product, summed piece by piece.
@@ -314,44 +308,6 @@ impl<'a> Method<'a> {
         });
         sums.into_iter().sum()
     }
-
-    /// Does something with each motion.
-    fn each(&self, motions: &mut Motions, work: impl Fn(usize, &mut [f64; 6]) + Sync + Send) {
-        each(self.context, motions, work);
-    }
-}
-
-/// Where the ends of each of so many bodies begin, and behind the last one their number; and the ends, body by body.
-fn ends_by_body(bodies: usize, ends_of: &[[u32; 2]]) -> (Vec<u32>, Vec<u32>) {
-    let mut starts = vec![0_u32; bodies + 1];
-    for end in ends_of.iter().flatten().filter(|end| **end != UNMOVED) {
-        starts[*end as usize + 1] += 1;
-    }
-    for body in 0..bodies {
-        starts[body + 1] += starts[body];
-    }
-    let mut next = starts.clone();
-    let mut ends = vec![0; starts[bodies] as usize];
-    for (place, of_element) in ends_of.iter().enumerate() {
-        for (end, &body) in of_element.iter().enumerate().filter(|(_, body)| **body != UNMOVED) {
-            ends[next[body as usize] as usize] = 2 * place as u32 + end as u32;
-            next[body as usize] += 1;
-        }
-    }
-    (starts, ends)
-}
-
-/// Does something with each motion, piece by piece.
-fn each(context: &Context, motions: &mut Motions, work: impl Fn(usize, &mut [f64; 6]) + Sync + Send) {
-    let count = motions.len();
-    let motions = Shared::new(motions);
-    context.each(count.div_ceil(CHUNK), |piece| {
-        let (from, to) = (piece * CHUNK, ((piece + 1) * CHUNK).min(count));
-        // SAFETY: pieces do not overlap.
-        for (mover, motion) in (from..).zip(unsafe { motions.part(from, to) }) {
-            work(mover, motion);
-        }
-    });
 }
 
 /// Velocity of the point at one end of an element, and angular velocity there, where its body has this scaled motion.

@@ -9,6 +9,7 @@
 mod blocks;
 mod bonded_motion;
 mod cluster;
+mod ends;
 mod impacts;
 mod impedance;
 mod lanczos;
@@ -19,7 +20,7 @@ mod shares;
 mod triangle;
 mod vibration;
 
-use crate::base::threads::Context;
+use crate::base::threads::{CHUNK, Context};
 use crate::engine::bodies::{RigidBody, Striker};
 use crate::engine::contacts::{Kind, Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
@@ -27,7 +28,7 @@ use crate::engine::state::{GONE, State};
 use crate::scene::{Insertion, Scene};
 use impacts::Impact;
 pub use limiter::{Limiter, LimiterKind, Mode};
-use network::Network;
+pub(crate) use network::Network;
 pub(crate) use vibration::Vibrations;
 
 /// What limits the time step.
@@ -74,10 +75,10 @@ impl StableStep {
     }
 }
 
-impl System<'_> {
+impl<'a> System<'a> {
     /// The stable time step of the network as it may get, and of impacts to come at up to twice this speed \[m/s\].
     /// `guess` is a root found earlier, or 0. `counter` numbers the starts of iterations; it is moved on. Where a time step that is known
-    /// to be stable is `enough` \[s\], a quick bound that is not shorter is the answer.
+    /// to be stable is `enough` \[s\], a quick bound that is not shorter is the answer; otherwise the network is told, too.
     pub(crate) fn find(
         &self,
         ahead: &SearchLimits,
@@ -86,12 +87,12 @@ impl System<'_> {
         enough: f64,
         counter: &mut u64,
         context: &Context,
-    ) -> StableStep {
+    ) -> (StableStep, Option<Network<'a>>) {
         let impacts = self.impact(speed, ahead.acceleration).unwrap_or(0.0);
         if enough.is_finite() {
             let (network, body) = self.quick_root(ahead, context);
             if network * enough <= 2.0 {
-                return StableStep { network, body, impacts };
+                return (StableStep { network, body, impacts }, None);
             }
         }
         let network = self.network(ahead, context);
@@ -102,16 +103,17 @@ impl System<'_> {
         } else {
             cluster::largest_root(&network, guess, context)
         };
-        StableStep { network: root, body, impacts }
+        (StableStep { network: root, body, impacts }, Some(network))
     }
 
     /// The largest root by single bodies \[1/s\], from the safe side, and the body that has it. No interaction is kept.
     fn quick_root(&self, ahead: &SearchLimits, context: &Context) -> (f64, Option<usize>) {
         let bodies = Network::of_bodies(self.state, self.bodies, self.fields);
         let supports = bodies.supports(self.bodies);
-        blocks::quick_root(&bodies, supports, |tell| {
+        let tell = |tell: &mut dyn FnMut(Link)| {
             self.passes.iter().for_each(|pass| pass.stiffness(self.state, ahead, context, tell));
-        })
+        };
+        blocks::quick_root(&bodies, supports, tell, context)
     }
 
     /// Whether there are bonds, or are about to be.
@@ -121,35 +123,38 @@ impl System<'_> {
     }
 
     /// The network, as it may get.
-    fn network(&self, ahead: &SearchLimits, context: &Context) -> Network<'_> {
+    fn network(&self, ahead: &SearchLimits, context: &Context) -> Network<'a> {
         Network::of(self.state, self.bodies, self.fields, self.passes, ahead, context)
     }
 
-    /// What a step that was found is limited by.
+    /// What a step that was found is limited by, with the network that it was found from, if that was kept.
     pub(crate) fn limiter(
         &self,
         ahead: &SearchLimits,
         speed: f64,
-        found: &StableStep,
+        (found, network): (&StableStep, Option<Network>),
         counter: u64,
         context: &Context,
     ) -> Option<Limiter> {
         if found.impacts > found.network {
             return self.hardest_impact(speed, ahead.acceleration).map(Impact::limiter);
         }
-        let network = self.network(ahead, context);
+        let network = network.unwrap_or_else(|| self.network(ahead, context));
         if network.elements.is_empty() {
             return None;
         }
         let motion = match found.body {
-            Some(body) => blocks::critical_motion(&network, found.network, body),
+            Some(body) => blocks::critical_motion(&network, found.network, body, context),
             None => lanczos::critical_motion(&network, found.network, counter, context),
         };
         let shares = |place: usize| lanczos::shares(&network, place, found.network, &motion);
-        let place = (0..network.elements.len())
-            .map(|place| (place, shares(place).iter().sum::<f64>()))
-            .reduce(|most, next| if next.1 > most.1 { next } else { most })?
-            .0;
+        let larger = |most: (usize, f64), next: (usize, f64)| if next.1 > most.1 { next } else { most };
+        let all = network.elements.len();
+        let largest = |piece: usize| {
+            let places = piece * CHUNK..((piece + 1) * CHUNK).min(all);
+            places.map(|place| (place, shares(place).iter().sum::<f64>())).reduce(larger)
+        };
+        let place = context.collect(all.div_ceil(CHUNK), largest).into_iter().flatten().reduce(larger)?.0;
         let parts = shares(place);
         let part = (0..4).reduce(|most, next| if parts[next] > parts[most] { next } else { most })?;
         let (link, mut count) = (std::cell::Cell::new(None), 0);

@@ -1,7 +1,7 @@
 //! The network of springs and dashpots: contacts and bonds between the bodies that forces move.
 
 use crate::base::number::{Vector, binade};
-use crate::base::threads::Context;
+use crate::base::threads::{CHUNK, Context};
 use crate::engine::bodies::{self, RigidBody};
 use crate::engine::contacts::{Link, Pass, SearchLimits};
 use crate::engine::integration::Fields;
@@ -11,6 +11,9 @@ use std::sync::Arc;
 
 /// Instead of a slot: what does not move by the forces on it.
 pub(super) const UNMOVED: u32 = u32::MAX;
+
+/// Interactions that become elements at a time.
+const ROUND: usize = 16 * CHUNK;
 
 /// Added to a slot: a particle that counts as standing still, and tells where a surface is touched.
 const HELD: u32 = 1 << 31;
@@ -138,6 +141,8 @@ pub(crate) struct Network<'a> {
     pub(super) groups: Arc<[Option<Group>]>,
     /// The interactions, in the order of the passes.
     pub(super) elements: Vec<Element>,
+    /// The bodies at the ends of each, as [`Self::mover`] tells them; [`UNMOVED`] for what does not move.
+    pub(super) bodies: Vec<[u32; 2]>,
     /// Their springs.
     pub(super) stiffness: Parts,
     /// Their dashpots.
@@ -164,6 +169,7 @@ impl<'a> Network<'a> {
             roots: (0..particles.len()).map(root).collect(),
             groups: groups.into(),
             elements: Vec::new(),
+            bodies: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
         }
@@ -182,9 +188,18 @@ impl<'a> Network<'a> {
         // Memory that is asked for and not written to costs nothing; to grow would take half as much again.
         let most = most_links(state);
         network.elements.reserve(most);
+        network.bodies.reserve(most);
+        let mut links = Vec::with_capacity(ROUND.min(most));
         for pass in passes {
-            pass.stiffness(state, ahead, context, &mut |link| network.add(&link, most));
+            pass.stiffness(state, ahead, context, &mut |link| {
+                links.push(link);
+                if links.len() == ROUND {
+                    network.add(&links, most, context);
+                    links.clear();
+                }
+            });
         }
+        network.add(&links, most, context);
         network.add_supports(bodies);
         network
     }
@@ -192,10 +207,7 @@ impl<'a> Network<'a> {
     /// Adds the springs of bodies to the ground, axis by axis.
     fn add_supports(&mut self, bodies: &[Option<RigidBody>]) {
         for (element, stiffness) in self.supports(bodies) {
-            let most = self.elements.len() + 1;
-            self.stiffness.push(stiffness, self.elements.len(), most);
-            self.damping.push([0.0; 4], self.elements.len(), most);
-            self.elements.push(element);
+            self.push(element, self.bodies_of(&element), [stiffness, [0.0; 4]], self.elements.len() + 1);
         }
     }
 
@@ -233,33 +245,51 @@ impl<'a> Network<'a> {
             roots: Arc::clone(&self.roots),
             groups: Arc::clone(&self.groups),
             elements: Vec::new(),
+            bodies: Vec::new(),
             stiffness: Parts::default(),
             damping: Parts::default(),
         };
-        for (place, element) in self.elements.iter().enumerate() {
-            let inside = element.slots.map(|slot| self.mover(slot).is_some_and(|mover| chosen[mover]));
-            let (taken, factor) = match inside {
+        for (place, (element, bodies)) in self.elements.iter().zip(&self.bodies).enumerate() {
+            let inside = bodies.map(|body| body != UNMOVED && chosen[body as usize]);
+            let (taken, own, factor) = match inside {
                 [false, false] => continue,
-                [true, true] => (*element, 1.0),
-                [true, false] => (element.end(0, self.roots.len()), borne(place, 0)),
-                [false, true] => (element.end(1, self.roots.len()), borne(place, 1)),
+                [true, true] => (*element, *bodies, 1.0),
+                [true, false] => (element.end(0, self.roots.len()), [bodies[0], UNMOVED], borne(place, 0)),
+                [false, true] => (element.end(1, self.roots.len()), [bodies[1], UNMOVED], borne(place, 1)),
             };
-            let most = part.elements.len() + 1;
-            part.stiffness.push(self.stiffness.of(place).map(|it| factor * it), part.elements.len(), most);
-            part.damping.push(self.damping.of(place).map(|it| factor * it), part.elements.len(), most);
-            part.elements.push(taken);
+            let parts = [&self.stiffness, &self.damping].map(|parts| parts.of(place).map(|it| factor * it));
+            part.push(taken, own, parts, part.elements.len() + 1);
         }
         part
     }
 
-    /// Adds an interaction, unless nothing moves by it.
-    fn add(&mut self, link: &Link, most: usize) {
-        for link in self.with_itself(link).iter().flatten() {
-            let Some(element) = self.element(link) else { continue };
-            self.stiffness.push(link.stiffness, self.elements.len(), most);
-            self.damping.push(link.damping, self.elements.len(), most);
-            self.elements.push(element);
+    /// Adds interactions, but those by which nothing moves.
+    fn add(&mut self, links: &[Link], most: usize, context: &Context) {
+        let found = |link: Link| {
+            let element = self.element(&link)?;
+            Some((element, self.bodies_of(&element), [link.stiffness, link.damping]))
+        };
+        let pieces = context.collect(links.len().div_ceil(CHUNK), |piece| {
+            let links = &links[piece * CHUNK..((piece + 1) * CHUNK).min(links.len())];
+            links.iter().flat_map(|link| self.with_itself(link)).flatten().filter_map(found).collect::<Vec<_>>()
+        });
+        for (element, bodies, parts) in pieces.into_iter().flatten() {
+            self.push(element, bodies, parts, most);
         }
+    }
+
+    /// Adds an element between these bodies, with its springs and dashpots; in all there are at most `most`.
+    fn push(&mut self, element: Element, bodies: [u32; 2], [stiffness, damping]: [[f64; 4]; 2], most: usize) {
+        let before = self.elements.len();
+        self.stiffness.push(stiffness, before, most);
+        self.damping.push(damping, before, most);
+        self.bodies.push(bodies);
+        self.elements.push(element);
+    }
+
+    /// The bodies at the ends of an element.
+    fn bodies_of(&self, element: &Element) -> [u32; 2] {
+        element.slots.map(|slot| self.mover(slot).map_or(UNMOVED, |mover| mover as u32))
     }
 
     /// Whether any interaction has a dashpot.

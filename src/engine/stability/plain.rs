@@ -5,6 +5,7 @@
 //! f = q s + (k − q) (n · s) n, whose couple about either centre is the arm's length times n × f = q n × s. What both give each body is
 //! found contact by contact, in registers; then each body adds up what its own contacts give it, in their order.
 
+use super::ends::Ends;
 use super::network::{Network, UNMOVED};
 use crate::base::lanes::{self, Kernel, Lane, Shared, columns, vector};
 use crate::base::number::{Row, Vector, add};
@@ -32,9 +33,6 @@ pub(super) struct Plain {
     /// Scaled acceleration and angular acceleration of each end of a contact: twice the contact, and 1 more for its second end.
     loads: Vec<[Row; 2]>,
 }
-
-/// Where the ends of each body begin, and behind the last one their number; and the ends, body by body.
-pub(super) type Ends<'a> = (&'a [u32], &'a [u32]);
 
 impl Plain {
     /// That of a network with these bodies, whose elements have these ends; none where it has more than contacts of particles.
@@ -68,7 +66,7 @@ impl Plain {
         &mut self,
         root: f64,
         (motion, image): (&[[f64; 6]], &mut [[f64; 6]]),
-        ends: Ends,
+        ends: &Ends,
         context: &Context,
     ) {
         for (body, ([v, w], [a, b, c, d, e, f])) in self.roots.iter().zip(motion).enumerate() {
@@ -177,7 +175,7 @@ struct Sums<'a, 'b> {
     /// What each end feels.
     loads: &'a [[Row; 2]],
     /// The ends of each body.
-    ends: Ends<'a>,
+    ends: &'a Ends,
     /// The first body.
     from: usize,
     /// Where it goes.
@@ -187,13 +185,14 @@ struct Sums<'a, 'b> {
 impl Kernel for Sums<'_, '_> {
     #[inline(always)]
     fn run<N: Lane>(self) {
-        let Self { loads, ends: (starts, ends), from, image } = self;
+        let Self { loads, ends, from, image } = self;
         let mut place = 0;
         while place < image.len() {
-            let (mut next, to) = (starts[from + place] as usize, starts[from + place + 1] as usize);
+            let own = ends.of_body(from + place);
+            let mut next = 0;
             let mut sums = [[0.0; 4]; 2];
-            while next < to {
-                let load = &loads[ends[next] as usize];
+            while next < own.len() {
+                let load = &loads[own[next] as usize];
                 add(&mut sums[0], &load[0]);
                 add(&mut sums[1], &load[1]);
                 next += 1;

@@ -5,7 +5,9 @@
 //! and Wielandt). Bodies limit the step by the largest eigenvalue of their block, but its trace costs a hundredth and tells
 //! nearly as well what a body could still bear.
 
-use super::network::{Element, Network};
+use super::ends::Ends;
+use super::network::{Network, UNMOVED};
+use crate::base::threads::Context;
 
 /// Sweeps. More of them level the traces further than what the traces stand for.
 const SWEEPS: usize = 2;
@@ -27,15 +29,15 @@ pub(super) struct Shares<'a> {
 }
 
 impl<'a> Shares<'a> {
-    /// Those of a network: springs and dashpots are weighed about this root \[1/s\], or, if it is 0, about one that follows
-    /// from traces.
-    pub(super) fn of(network: &'a Network<'a>, guess: f64) -> Self {
+    /// Those of a network, whose bodies have these ends: springs and dashpots are weighed about this root \[1/s\], or, if it is 0, about
+    /// one that follows from traces.
+    pub(super) fn of(network: &'a Network<'a>, ends: &Ends, guess: f64, context: &Context) -> Self {
         let mut shares = Self { network, traces: Vec::new(), weights: vec![1.0; network.movers()] };
         let mut at = guess;
         if network.is_damped() && guess <= 0.0 {
             let sums = [&network.stiffness, &network.damping].map(|parts| {
-                shares.weigh(|place| parts.of(place));
-                shares.sums()
+                shares.weigh(context, |place| parts.of(place));
+                shares.sums(ends, context)
             });
             let root = |(k, c): (&f64, &f64)| {
                 let (k, c) = (LARGEST * k, LARGEST * c);
@@ -43,9 +45,9 @@ impl<'a> Shares<'a> {
             };
             at = sums[0].iter().zip(&sums[1]).map(root).fold(0.0, f64::max);
         }
-        shares.weigh(|place| network.parts(place, at));
+        shares.weigh(context, |place| network.parts(place, at));
         for _ in 0..SWEEPS {
-            let sums = shares.sums();
+            let sums = shares.sums(ends, context);
             let most = sums.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
             for (weight, sum) in shares.weights.iter_mut().zip(sums) {
                 *weight *= (sum / most).sqrt() as f32;
@@ -55,38 +57,37 @@ impl<'a> Shares<'a> {
     }
 
     /// Finds the traces of all elements, each with these springs.
-    fn weigh(&mut self, parts: impl Fn(usize) -> [f64; 4]) {
+    fn weigh(&mut self, context: &Context, parts: impl Fn(usize) -> [f64; 4] + Sync + Send) {
         let network = self.network;
-        let traces = |(place, element): (usize, &Element)| {
-            let parts = parts(place);
-            [0, 1].map(|end| network.trace(element, end, parts).sqrt() as f32)
-        };
-        self.traces = network.elements.iter().enumerate().map(traces).collect();
+        self.traces.resize(network.elements.len(), [0.0; 2]);
+        context.update(&mut self.traces, |place, traces| {
+            let (element, parts) = (&network.elements[place], parts(place));
+            *traces = [0, 1].map(|end| network.trace(element, end, parts).sqrt() as f32);
+        });
     }
 
     /// The traces of all blocks \[1/s²\].
-    fn sums(&self) -> Vec<f64> {
+    fn sums(&self, ends: &Ends, context: &Context) -> Vec<f64> {
         let mut sums = vec![0.0; self.network.movers()];
-        for (place, traces) in self.traces.iter().enumerate() {
-            for (borne, trace) in self.borne(place).into_iter().zip(traces) {
-                if let Some((mover, factor)) = borne {
-                    sums[mover] += factor * f64::from(*trace) * f64::from(*trace);
-                }
+        context.update(&mut sums, |mover, sum| {
+            for (place, end) in ends.each_of(mover) {
+                let trace = f64::from(self.traces[place][end]);
+                *sum += self.borne(place)[end] * trace * trace;
             }
-        }
+        });
         sums
     }
 
-    /// The bodies at the ends of an element, and how many times what they would feel of it alone they bear.
+    /// How many times what they would feel of an element alone the bodies at its ends bear.
     #[inline]
-    pub(super) fn borne(&self, place: usize) -> [Option<(usize, f64)>; 2] {
-        let [first, second] = self.network.elements[place].slots.map(|slot| self.network.mover(slot));
-        let (Some(a), Some(b)) = (first, second) else {
-            return [first, second].map(|end| end.map(|mover| (mover, 1.0)));
-        };
-        let strength = |end: usize, mover: usize| f64::from(self.traces[place][end]) * f64::from(self.weights[mover]);
-        let [first, second] = divided([strength(0, a), strength(1, b)]);
-        [Some((a, first)), Some((b, second))]
+    pub(super) fn borne(&self, place: usize) -> [f64; 2] {
+        let [first, second] = self.network.bodies[place];
+        if first == UNMOVED || second == UNMOVED {
+            return [1.0; 2];
+        }
+        let strength =
+            |end: usize, mover: u32| f64::from(self.traces[place][end]) * f64::from(self.weights[mover as usize]);
+        divided([strength(0, first), strength(1, second)])
     }
 
     /// Of no interaction.

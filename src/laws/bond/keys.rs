@@ -45,9 +45,9 @@ keys! {
         pub create_distance: Option<Positive> = "required unless the pairs are listed",
         /// λ: bond radius r_b = λ min(R_i, R_j), at a plane λ R_i.
         pub radius_multiplier: Option<Positive> = "1",
-        /// k_n, per unit area \[Pa/m\].
+        /// Normal stiffness k_n, per unit area \[Pa/m\].
         pub normal_stiffness: Positive = "required",
-        /// k_t, per unit area \[Pa/m\].
+        /// Tangential stiffness k_t, per unit area \[Pa/m\].
         pub tangential_stiffness: NonNegative = "required",
         /// Whether a stretched bond pulls.
         #[serde(default = "yes")]

@@ -1,5 +1,6 @@
 //! Numbers that a scene gives for each part of a bond.
 
+use crate::base::quantity::{Checked, Range};
 use serde::Deserialize;
 
 /// One number for each part of a bond; what is absent is 0.
@@ -22,4 +23,9 @@ impl<T: Copy> PartKeys<T> {
         [self.normal_force, self.tangential_force, self.normal_torque, self.tangential_torque]
             .map(|part| part.map_or(0.0, &number))
     }
+}
+
+impl<T: Checked> PartKeys<T> {
+    /// The numbers that each part takes.
+    pub(crate) const RANGE: Range = T::RANGE;
 }

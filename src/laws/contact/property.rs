@@ -39,17 +39,23 @@ impl fmt::Debug for Property {
     }
 }
 
-/// Declares the properties of the program, and the list of them.
+/// Declares the properties of the program, the list of them, and the table of the documentation: of each the meaning, and what needs it.
 macro_rules! standard {
-    ($($(#[$doc:meta])* $place:ident: $name:literal, $unit:expr, $range:expr, $tunable:expr, $about:literal;)+) => {
+    ($(
+        $(#[doc = $meaning:literal])+
+        $place:ident: $name:literal, $unit:expr, $range:expr, $tunable:expr, $about:literal, $needed_by:literal;
+    )+) => {
         $(
-            $(#[$doc])*
+            $(#[doc = $meaning])+
             pub static $place: Property = Property {
                 name: $name, unit: $unit, range: $range, tunable: $tunable, about: $about,
             };
         )+
         /// The properties of two materials that the program has.
         pub const STANDARD: &[&Property] = &[$(&$place),+];
+
+        #[cfg(test)]
+        const DOCUMENTED: &[(&str, &str)] = &[$((concat!($($meaning),+), $needed_by)),+];
     };
 }
 
@@ -60,49 +66,49 @@ const FIXED: bool = false;
 
 standard! {
     /// Coefficient of restitution e.
-    RESTITUTION: "restitution", Always("1"), Range::RESTITUTION, TUNABLE, "coefficient of restitution";
+    RESTITUTION: "restitution", Always("1"), Range::RESTITUTION, TUNABLE, "coefficient of restitution", "`hertz`, `hooke`, `eepa`";
     /// Coefficient of friction µ.
-    FRICTION: "friction", Always("1"), Range::NON_NEGATIVE, TUNABLE, "coefficient of friction";
+    FRICTION: "friction", Always("1"), Range::NON_NEGATIVE, TUNABLE, "coefficient of friction", "`history`, `no_history`, `rescaled`, `turned_history`";
     /// Coefficient of rolling friction µ_r.
-    ROLLING_FRICTION: "rolling_friction", Always("1"), Range::NON_NEGATIVE, TUNABLE, "coefficient of rolling friction";
+    ROLLING_FRICTION: "rolling_friction", Always("1"), Range::NON_NEGATIVE, TUNABLE, "coefficient of rolling friction", "`cdt`, `epsd`, `epsd2`";
     /// Cohesion energy density c \[J/m³\].
-    COHESION_ENERGY_DENSITY: "cohesion_energy_density", Always("J/m3"), Range::NON_NEGATIVE, TUNABLE, "cohesion energy density";
+    COHESION_ENERGY_DENSITY: "cohesion_energy_density", Always("J/m3"), Range::NON_NEGATIVE, TUNABLE, "cohesion energy density", "`sjkr`, `sjkr2`";
     /// Given normal stiffness κ_n: of `hooke_stiffness` \[N/m\], of `hertz_stiffness` \[Pa\].
-    NORMAL_STIFFNESS: "normal_stiffness", ByLaw(stiffness), Range::NON_NEGATIVE, FIXED, "given normal stiffness";
-    /// Given tangential stiffness κ_t: of `hooke_stiffness` \[N/m\], of `hertz_stiffness` \[Pa\].
-    TANGENTIAL_STIFFNESS: "tangential_stiffness", ByLaw(stiffness), Range::NON_NEGATIVE, FIXED, "given tangential stiffness";
+    NORMAL_STIFFNESS: "normal_stiffness", ByLaw(stiffness), Range::NON_NEGATIVE, FIXED, "given normal stiffness", "`hooke_stiffness`, `hertz_stiffness`";
+    /// Given tangential stiffness κ_t: of `hooke_stiffness` \[N/m\], of `hertz_stiffness`, `jkr`, `dmt` \[Pa\].
+    TANGENTIAL_STIFFNESS: "tangential_stiffness", ByLaw(stiffness), Range::NON_NEGATIVE, FIXED, "given tangential stiffness", "`hooke_stiffness`, `hertz_stiffness` with friction; `jkr`, `dmt` with `given_tangential_modulus`; `turned_history` with `given_stiffness`";
     /// Given normal damping for each effective mass: of `hooke_stiffness` \[1/s\], of `hertz_stiffness` \[1/(m s)\].
-    NORMAL_DAMPING: "normal_damping", ByLaw(damping), Range::NON_NEGATIVE, TUNABLE, "given normal damping over the effective mass";
+    NORMAL_DAMPING: "normal_damping", ByLaw(damping), Range::NON_NEGATIVE, TUNABLE, "given normal damping over the effective mass", "`hooke_stiffness`, `hertz_stiffness`";
     /// Given tangential damping for each effective mass: of `hooke_stiffness` \[1/s\], of `hertz_stiffness` \[1/(m s)\].
-    TANGENTIAL_DAMPING: "tangential_damping", ByLaw(damping), Range::NON_NEGATIVE, TUNABLE, "given tangential damping over the effective mass";
-    /// Given normal damping whatever the masses, with `absolute_damping` \[kg/s\].
-    ABSOLUTE_NORMAL_DAMPING: "absolute_normal_damping", Always("kg/s"), Range::NON_NEGATIVE, TUNABLE, "given normal damping";
-    /// Given tangential damping whatever the masses, with `absolute_damping` \[kg/s\].
-    ABSOLUTE_TANGENTIAL_DAMPING: "absolute_tangential_damping", Always("kg/s"), Range::NON_NEGATIVE, TUNABLE, "given tangential damping";
+    TANGENTIAL_DAMPING: "tangential_damping", ByLaw(damping), Range::NON_NEGATIVE, TUNABLE, "given tangential damping over the effective mass", "the same, with friction";
+    /// Given normal damping whatever the masses \[kg/s\].
+    ABSOLUTE_NORMAL_DAMPING: "absolute_normal_damping", Always("kg/s"), Range::NON_NEGATIVE, TUNABLE, "given normal damping", "`hooke_stiffness` with `absolute_damping`";
+    /// Given tangential damping whatever the masses \[kg/s\].
+    ABSOLUTE_TANGENTIAL_DAMPING: "absolute_tangential_damping", Always("kg/s"), Range::NON_NEGATIVE, TUNABLE, "given tangential damping", "the same, with friction";
     /// Viscosity of the fluid between the bodies, η \[Pa s\].
-    FLUID_VISCOSITY: "fluid_viscosity", Always("Pa.s"), Range::POSITIVE, TUNABLE, "viscosity of the fluid between the bodies";
+    FLUID_VISCOSITY: "fluid_viscosity", Always("Pa.s"), Range::POSITIVE, TUNABLE, "viscosity of the fluid between the bodies", "`hooke_viscous`";
     /// Critical Stokes number of the fluid between the bodies.
-    CRITICAL_STOKES_NUMBER: "critical_stokes_number", Always("1"), Range::POSITIVE, TUNABLE, "critical Stokes number of the fluid between the bodies";
+    CRITICAL_STOKES_NUMBER: "critical_stokes_number", Always("1"), Range::POSITIVE, TUNABLE, "critical Stokes number of the fluid between the bodies", "`hooke_viscous`";
     /// Largest coefficient of restitution, without fluid.
-    MAXIMUM_RESTITUTION: "maximum_restitution", Always("1"), Range::RESTITUTION, TUNABLE, "largest coefficient of restitution";
+    MAXIMUM_RESTITUTION: "maximum_restitution", Always("1"), Range::RESTITUTION, TUNABLE, "largest coefficient of restitution", "`hooke_viscous`";
     /// Damping of a rolling spring over its critical damping, η_r.
-    ROLLING_VISCOUS_DAMPING: "rolling_viscous_damping", Always("1"), Range::NON_NEGATIVE, TUNABLE, "damping of the rolling spring over its critical damping";
+    ROLLING_VISCOUS_DAMPING: "rolling_viscous_damping", Always("1"), Range::NON_NEGATIVE, TUNABLE, "damping of the rolling spring over its critical damping", "`epsd`";
     /// Surface energy γ, half the work of adhesion of `jkr` and `dmt` \[J/m²\].
-    SURFACE_ENERGY: "surface_energy", Always("J/m2"), Range::NON_NEGATIVE, TUNABLE, "surface energy, half the work of adhesion";
-    /// Damping of `jkr` and `dmt`: \[1/(m s)\], \[1/s\] or \[kg/s\], as their key `damping` says.
-    DAMPING_COEFFICIENT: "damping_coefficient", ByLaw(sticky_damping), Range::NON_NEGATIVE, TUNABLE, "damping of jkr and dmt";
-    /// Tangential damping over normal damping of `jkr` and `dmt`, x_t.
-    TANGENTIAL_DAMPING_RATIO: "tangential_damping_ratio", Always("1"), Range::NON_NEGATIVE, TUNABLE, "tangential damping over normal damping";
-    /// Stiffness of unloading over that of loading of `eepa`, k₂/k₁.
-    UNLOADING_STIFFNESS_RATIO: "unloading_stiffness_ratio", Always("1"), Range::AT_LEAST_ONE, FIXED, "stiffness of unloading over that of loading";
-    /// Constant attraction of touching bodies of `eepa`, f₀ \[N\].
-    PULL_OFF_FORCE: "pull_off_force", Always("N"), Range::NON_NEGATIVE, TUNABLE, "constant attraction of touching bodies";
-    /// Stiffness of the adhesion branch over that of loading of `eepa` with `adhesion = "fixed"`, k_a/k₁.
-    ADHESION_STIFFNESS_RATIO: "adhesion_stiffness_ratio", Always("1"), Range::NON_NEGATIVE, FIXED, "stiffness of the adhesion branch over that of loading";
+    SURFACE_ENERGY: "surface_energy", Always("J/m2"), Range::NON_NEGATIVE, TUNABLE, "surface energy, half the work of adhesion", "`jkr`, `dmt`, `eepa` with `adhesion = \"patch\"`";
+    /// Damping η: \[1/(m s)\], \[1/s\] or \[kg/s\], as the key `damping` says.
+    DAMPING_COEFFICIENT: "damping_coefficient", ByLaw(sticky_damping), Range::NON_NEGATIVE, TUNABLE, "damping of jkr and dmt", "`jkr`, `dmt`";
+    /// Tangential damping over normal damping, x_t.
+    TANGENTIAL_DAMPING_RATIO: "tangential_damping_ratio", Always("1"), Range::NON_NEGATIVE, TUNABLE, "tangential damping over normal damping", "`jkr`, `dmt` with friction";
+    /// Stiffness of unloading over that of loading, k₂/k₁.
+    UNLOADING_STIFFNESS_RATIO: "unloading_stiffness_ratio", Always("1"), Range::AT_LEAST_ONE, FIXED, "stiffness of unloading over that of loading", "`eepa`";
+    /// Constant attraction of touching bodies, f₀ \[N\].
+    PULL_OFF_FORCE: "pull_off_force", Always("N"), Range::NON_NEGATIVE, TUNABLE, "constant attraction of touching bodies", "`eepa`";
+    /// Stiffness of the adhesion branch over that of loading, k_a/k₁.
+    ADHESION_STIFFNESS_RATIO: "adhesion_stiffness_ratio", Always("1"), Range::NON_NEGATIVE, FIXED, "stiffness of the adhesion branch over that of loading", "`eepa` with `adhesion = \"fixed\"`";
     /// Conductivity of both, in place of those of the materials, k \[W/(m K)\].
-    CONDUCTIVITY: "conductivity", Always("W/(m.K)"), Range::POSITIVE, FIXED, "conductivity of both materials";
-    /// Heat transfer coefficient of the area of contact of `transfer`, h \[W/(m² K)\].
-    HEAT_TRANSFER_COEFFICIENT: "heat_transfer_coefficient", Always("W/(m2.K)"), Range::NON_NEGATIVE, FIXED, "heat transfer coefficient of the area of contact";
+    CONDUCTIVITY: "conductivity", Always("W/(m.K)"), Range::POSITIVE, FIXED, "conductivity of both materials", "`constriction`, `overlap_area`, unless both materials have one";
+    /// Heat transfer coefficient of the area of contact, h \[W/(m² K)\].
+    HEAT_TRANSFER_COEFFICIENT: "heat_transfer_coefficient", Always("W/(m2.K)"), Range::NON_NEGATIVE, FIXED, "heat transfer coefficient of the area of contact", "`transfer`";
 }
 
 /// Of a given stiffness: a force over a length, or a pressure where the overlap or the contact radius is a factor.
@@ -182,15 +188,20 @@ impl Properties {
 mod tests {
     use super::*;
 
+    /// The table of the documentation.
+    fn table() -> String {
+        let line = |(property, (meaning, needed_by)): (&&Property, &(&str, &str))| {
+            let (meaning, range) = (meaning.trim().trim_end_matches('.'), property.range.words());
+            format!("| `{}` | {meaning}, {range} | {needed_by} |\n", property.name)
+        };
+        let lines: String = STANDARD.iter().zip(DOCUMENTED).map(line).collect();
+        format!("| key | meaning | needed by |\n|---|---|---|\n{lines}")
+    }
+
     #[test]
-    fn every_property_of_a_pair_stands_in_the_table_of_scene_md() {
+    fn the_properties_of_a_pair_stand_in_the_documentation_as_they_are_declared() {
         let page = include_str!("../../../docs/scene.md");
-        let table = page.split("## `[pair.<a>.<b>]`").nth(1).unwrap().split("\n## ").next().unwrap();
-        let keys: Vec<&str> = table.lines().filter_map(|line| line.strip_prefix("| ")?.split(" | ").next()).collect();
-        for property in STANDARD {
-            let key = format!("`{}`", property.name);
-            assert!(keys.iter().any(|keys| keys.contains(&key)), "{key}");
-        }
+        assert!(page.contains(&table()), "docs/scene.md lacks the table\n\n{}", table());
     }
 
     #[test]

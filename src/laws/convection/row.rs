@@ -10,17 +10,11 @@ use std::sync::Arc;
 pub trait Nusselt: fmt::Debug + Send + Sync {
     /// [`Convection::nusselt`]
     fn nusselt(&self, porosity: f64, reynolds: f64, prandtl: f64) -> f64;
-    /// [`Convection::OF_ONE_SPHERE`]
-    fn is_of_one_sphere(&self) -> bool;
 }
 
 impl<C: Convection> Nusselt for C {
     fn nusselt(&self, porosity: f64, reynolds: f64, prandtl: f64) -> f64 {
         Convection::nusselt(self, porosity, reynolds, prandtl)
-    }
-
-    fn is_of_one_sphere(&self) -> bool {
-        C::OF_ONE_SPHERE
     }
 }
 
@@ -33,16 +27,18 @@ pub type ConvectionModel = LawModel<dyn Nusselt>;
 impl ConvectionRow {
     /// The row of a law.
     pub const fn of<C: Convection>() -> &'static Self {
-        const { &Self { name: C::NAME, read: read::<C::Keys>, law: |keys| Arc::new(C::of(own::<C::Keys>(keys))) } }
+        const {
+            &Self {
+                name: C::NAME,
+                read: read::<C::Keys>,
+                law: |keys| Arc::new(C::of(own::<C::Keys>(keys))),
+                of_one_sphere: C::OF_ONE_SPHERE,
+            }
+        }
     }
 }
 
 impl ConvectionModel {
-    /// Whether it holds for one sphere in much fluid alone.
-    pub fn is_of_one_sphere(&self) -> bool {
-        self.law().is_of_one_sphere()
-    }
-
     /// A law with these keys.
     pub fn of<C: Convection>(keys: C::Keys) -> Self
     where

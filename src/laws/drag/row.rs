@@ -10,17 +10,11 @@ use std::sync::Arc;
 pub trait Factor: fmt::Debug + Send + Sync {
     /// [`Drag::factor`]
     fn factor(&self, porosity: f64, reynolds: f64) -> f64;
-    /// [`Drag::OF_ONE_SPHERE`]
-    fn is_of_one_sphere(&self) -> bool;
 }
 
 impl<D: Drag> Factor for D {
     fn factor(&self, porosity: f64, reynolds: f64) -> f64 {
         Drag::factor(self, porosity, reynolds)
-    }
-
-    fn is_of_one_sphere(&self) -> bool {
-        D::OF_ONE_SPHERE
     }
 }
 
@@ -33,16 +27,18 @@ pub type DragModel = LawModel<dyn Factor>;
 impl DragRow {
     /// The row of a law.
     pub const fn of<D: Drag>() -> &'static Self {
-        const { &Self { name: D::NAME, read: read::<D::Keys>, law: |keys| Arc::new(D::of(own::<D::Keys>(keys))) } }
+        const {
+            &Self {
+                name: D::NAME,
+                read: read::<D::Keys>,
+                law: |keys| Arc::new(D::of(own::<D::Keys>(keys))),
+                of_one_sphere: D::OF_ONE_SPHERE,
+            }
+        }
     }
 }
 
 impl DragModel {
-    /// Whether it holds for one sphere in much fluid alone.
-    pub fn is_of_one_sphere(&self) -> bool {
-        self.law().is_of_one_sphere()
-    }
-
     /// A law with these keys.
     pub fn of<D: Drag>(keys: D::Keys) -> Self
     where

@@ -3,22 +3,23 @@
 use super::cylinder::{Caps, axis};
 use super::profile::Revolution;
 use super::{Shape, ShapeContext, ShapeKeys};
+use crate::base::document::keys;
 use crate::base::quantity::{NonNegative, Triple};
-use serde::Deserialize;
 
-/// `cone = { from, to, radii }`
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// Where its axis begins \[m\].
-    from: Triple,
-    /// Where its axis ends \[m\].
-    to: Triple,
-    /// The radii there; one of them may be 0 \[m\].
-    radii: [NonNegative; 2],
-    /// Which ends are closed.
-    #[serde(default)]
-    caps: Caps,
+keys! {
+    /// `cone = { from, to, radii }`
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) struct Keys {
+        /// Where its axis begins \[m\].
+        from: Triple = "required",
+        /// Where its axis ends \[m\].
+        to: Triple = "required",
+        /// The radii there; one of them may be 0 \[m\].
+        radii: [NonNegative; 2] = "required",
+        /// Which ends are closed: `"from"`, `"to"`, `"both"`.
+        #[serde(default)]
+        caps: Caps = "`\"none\"`",
+    }
 }
 
 impl ShapeKeys for Keys {

@@ -2,6 +2,7 @@
 
 use super::profile::Revolution;
 use super::{Shape, ShapeContext, ShapeKeys};
+use crate::base::document::keys;
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Positive, Triple};
 use serde::Deserialize;
@@ -59,22 +60,23 @@ pub fn infinite(material: MaterialIndex, point: [f64; 3], axis: [f64; 3], radius
     Some(Shape::of(Revolution::of("cylinder", material, about, &[[radius, -FAR], [radius, FAR]])))
 }
 
-/// `cylinder = { from, to, radius }`
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// Where its axis begins \[m\].
-    from: Triple,
-    /// Where its axis ends \[m\].
-    to: Triple,
-    /// Its radius \[m\].
-    radius: Positive,
-    /// Which ends are closed.
-    #[serde(default)]
-    caps: Caps,
-    /// Whether it goes on beyond both ends.
-    #[serde(default)]
-    infinite: bool,
+keys! {
+    /// `cylinder = { from, to, radius }`
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) struct Keys {
+        /// Where its axis begins \[m\].
+        from: Triple = "required",
+        /// Where its axis ends \[m\].
+        to: Triple = "required",
+        /// Its radius \[m\].
+        radius: Positive = "required",
+        /// Which ends are closed: `"from"`, `"to"`, `"both"`.
+        #[serde(default)]
+        caps: Caps = "`\"none\"`",
+        /// Whether it goes on beyond both ends.
+        #[serde(default)]
+        infinite: bool = "`false`",
+    }
 }
 
 impl ShapeKeys for Keys {

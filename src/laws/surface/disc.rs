@@ -2,21 +2,22 @@
 
 use super::profile::Revolution;
 use super::{Shape, ShapeContext, ShapeKeys, direction};
+use crate::base::document::keys;
 use crate::base::quantity::{Positive, Triple};
-use serde::Deserialize;
 
-/// `disc = { centre, normal, radius }`
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// Its centre \[m\].
-    centre: Triple,
-    /// Across it, of any length but 0.
-    normal: Triple,
-    /// Its radius \[m\].
-    radius: Positive,
-    /// Radius of the hole in its middle \[m\].
-    hole: Option<Positive>,
+keys! {
+    /// `disc = { centre, normal, radius }`
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) struct Keys {
+        /// Its centre \[m\].
+        centre: Triple = "required",
+        /// Across it, of any length but 0.
+        normal: Triple = "required",
+        /// Its radius \[m\].
+        radius: Positive = "required",
+        /// Radius of the hole in its middle \[m\].
+        hole: Option<Positive> = "none",
+    }
 }
 
 impl ShapeKeys for Keys {

@@ -3,9 +3,9 @@
 use super::facets::{Facets, across};
 use super::feet::{Features, Feet, Foot};
 use super::{Copies, Repeated, Shape, ShapeContext, ShapeKeys, Surface, direction};
+use crate::base::document::keys;
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Triple};
-use serde::Deserialize;
 
 /// An infinite plane. Particles live where its normal points: a centre behind it is lost.
 ///
@@ -111,14 +111,15 @@ impl Features for Plane {
     }
 }
 
-/// `plane = { point, normal }`
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// A point on it \[m\].
-    point: Triple,
-    /// Towards the particles, of any length but 0.
-    normal: Triple,
+keys! {
+    /// `plane = { point, normal }`
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) struct Keys {
+        /// A point on it \[m\].
+        point: Triple = "required",
+        /// Towards the particles, of any length but 0.
+        normal: Triple = "required",
+    }
 }
 
 impl ShapeKeys for Keys {

@@ -3,9 +3,9 @@
 use super::facets::Facets;
 use super::feet::{Features, Feet, Foot};
 use super::{Copies, Repeated, Shape, ShapeContext, ShapeKeys, Surface, mesh};
+use crate::base::document::keys;
 use crate::base::number::Vector;
 use crate::base::quantity::{MaterialIndex, Triple};
-use serde::Deserialize;
 
 /// How far from a right angle the edges may be: the cosine of the angle between them.
 const SQUARE: f64 = 1e-9;
@@ -121,14 +121,15 @@ impl Features for Rectangle {
     }
 }
 
-/// `rectangle = { corner, edges }`
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// One of its corners \[m\].
-    corner: Triple,
-    /// The two edges there, at a right angle \[m\].
-    edges: [Triple; 2],
+keys! {
+    /// `rectangle = { corner, edges }`
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) struct Keys {
+        /// One of its corners \[m\].
+        corner: Triple = "required",
+        /// The two edges there, at a right angle \[m\].
+        edges: [Triple; 2] = "required",
+    }
 }
 
 impl ShapeKeys for Keys {

@@ -2,19 +2,20 @@
 
 use super::profile::Revolution;
 use super::{Shape, ShapeContext, ShapeKeys, direction};
+use crate::base::document::keys;
 use crate::base::quantity::{Finite, Triple};
-use serde::Deserialize;
 
-/// `revolution = { origin, axis, profile }`
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Keys {
-    /// Where heights are counted from on the axis \[m\].
-    origin: Triple,
-    /// Along the axis, of any length but 0.
-    axis: Triple,
-    /// Corners of the profile, `[radius, height]` of each \[m\].
-    profile: Vec<[Finite; 2]>,
+keys! {
+    /// `revolution = { origin, axis, profile }`
+    #[derive(Clone, Debug)]
+    pub(crate) struct Keys {
+        /// Where heights are counted from on the axis \[m\].
+        origin: Triple = "required",
+        /// Along the axis, of any length but 0.
+        axis: Triple = "required",
+        /// Corners `[radius, height]` of the profile, joined by straight lines and turned about the axis \[m\].
+        profile: Vec<[Finite; 2]> = "required",
+    }
 }
 
 impl ShapeKeys for Keys {

@@ -113,12 +113,7 @@ fn time([least, expected, most]: [f64; 3]) -> String {
 
 /// How many steps a run makes: at least, expected, at most. The automatic step begins as it is now, and is at its shortest when
 /// everything has fallen as far as it can, into a packing.
-fn steps(
-    scene: &Arc<Scene>,
-    present: &Simulation,
-    (schedule, begins): (&Schedule, f64),
-    trial: &Trial,
-) -> [Counted; 3] {
+fn steps(scene: &Scene, present: &Simulation, (schedule, begins): (&Schedule, f64), trial: &Trial) -> [Counted; 3] {
     let now = present.state().clock.step;
     let Some(part) = present.part_of_stable() else {
         return [schedule.steps(begins, now); 3];
@@ -127,13 +122,7 @@ fn steps(
         Step::Following => [present.part_of_impacts(), present.longest_part()],
         _ => [part; 2],
     };
-    let mut falling = present.state().clone();
-    let speed = fall(scene, present);
-    for velocity in &mut falling.particles.velocity {
-        velocity[0] = speed;
-    }
-    let bound =
-        Simulation::resume(Arc::clone(scene), falling).map_or_else(|_| present.stable_step(), |it| it.stable_step());
+    let bound = present.stable_step_at(fall(scene, present));
     let longest = AT_REST * now.max(trial.last_step) * largest / part;
     let fallen = ((smallest * largest).sqrt() * bound).min(longest);
     let shortest = (IN_A_PACKING * smallest * bound).min(fallen).min(now).min(trial.last_step);

@@ -27,7 +27,7 @@ use serde::Serialize;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
-use trial::Trial;
+use trial::{BETWEEN_LOOKS_AT_STEPS, Trial};
 
 /// The numbers behind the lines, for programs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -101,7 +101,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let present = simulation.state().clone();
     let trial = trial::of(&mut simulation, &interface, schedule.as_ref().map(|schedule| (schedule, begins)));
     let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
-    let memory = memory(&simulation);
+    let memory = memory(&trial);
     simulation.return_to(&present);
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));
     let cost = cost(&simulation, &trial);
@@ -377,8 +377,12 @@ fn cost(simulation: &Simulation, trial: &Trial) -> String {
         0 => String::new(),
         count => format!(", {:.1} ns for each {}", trial.step * 1e9 / count as f64, ["contact", "particle"][of]),
     };
+    let look = match trial.look {
+        0.0 => String::new(),
+        look => format!(", with a look for the stable one, {look:.2} s, in {BETWEEN_LOOKS_AT_STEPS}"),
+    };
     format!(
-        "{:.3e} s wall for each step{share} (measured over {}; the trial took {:.2} s)",
+        "{:.3e} s wall for each step{share} (measured over {}{look}; the trial took {:.2} s)",
         trial.step,
         counted(trial.steps, "step"),
         trial.cost
@@ -386,10 +390,10 @@ fn cost(simulation: &Simulation, trial: &Trial) -> String {
 }
 
 /// Size of the state and of the whole process.
-fn memory(simulation: &Simulation) -> String {
+fn memory(trial: &Trial) -> String {
     /// Bytes in a mebibyte.
     const MEBIBYTE: f64 = 1_048_576.0;
-    let state = simulation.state().to_bytes(0).len() as f64 / MEBIBYTE;
+    let state = trial.checkpoint.bytes / MEBIBYTE;
     let process = std::fs::read_to_string("/proc/self/status").ok().and_then(|status| {
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
         line.split_whitespace().next()?.parse::<f64>().ok()

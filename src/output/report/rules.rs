@@ -54,6 +54,9 @@ fn hertz_time(scene: &Scene, simulation: &Simulation) -> Option<(f64, f64)> {
 fn inertial_number(scene: &Scene, simulation: &Simulation) -> Option<f64> {
     let state = simulation.state();
     let fastest = state.boundaries.iter().map(|moved| Vector::from(moved.velocity).length()).fold(0.0, f64::max);
+    if fastest == 0.0 {
+        return None;
+    }
     let along = |axis: usize| {
         let places = state.particles.position.iter().map(|row| row[axis]);
         places.clone().fold(f64::NEG_INFINITY, f64::max) - places.fold(f64::INFINITY, f64::min)

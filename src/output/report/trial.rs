@@ -18,6 +18,12 @@ const LONG: f64 = 0.1;
 /// Wall time between two looks at the clock.
 const BETWEEN_LOOKS: f64 = 0.02;
 
+/// Time steps for which the looks of a trial count, at least: where the first ones follow each other, the next come much later.
+pub(crate) const BETWEEN_LOOKS_AT_STEPS: f64 = 256.0;
+
+/// Wall time over the patience until which a time step is waited for in which nobody looks.
+const MORE_PATIENCE: u32 = 3;
+
 /// Time steps of a communication step of a scene that says no end.
 const WITHOUT_END: f64 = 1000.0;
 
@@ -39,6 +45,8 @@ pub(crate) struct Trial {
     pub particle: f64,
     /// Time steps made.
     pub steps: u64,
+    /// Wall time of a look for the stable time step, where there were more of them than a run has; 0 otherwise \[s\].
+    pub look: f64,
     /// The time step at its end \[s\].
     pub last_step: f64,
     /// Wall time of the whole trial \[s\].
@@ -82,15 +90,47 @@ pub(crate) fn of(
     Ok(trial)
 }
 
+/// Time steps and their wall time.
+#[derive(Clone, Copy, Default)]
+struct Made {
+    /// How many.
+    steps: u64,
+    /// Wall time \[s\].
+    time: f64,
+    /// How often the stable time step was looked for in them.
+    looks: u64,
+}
+
+impl Trial {
+    /// Takes the cost of a step from those in which nobody looked for the stable one and from the others.
+    fn weigh(&mut self, [plain, looking]: [Made; 2]) {
+        let steps = (plain.steps + looking.steps) as f64;
+        if plain.steps == 0 {
+            self.step = looking.time / steps.max(1.0);
+            return;
+        }
+        let each = plain.time / plain.steps as f64;
+        let looks = (looking.time - looking.steps as f64 * each).max(0.0);
+        self.step = each + looks / steps.max(BETWEEN_LOOKS_AT_STEPS);
+        if looking.looks > 0 && steps < BETWEEN_LOOKS_AT_STEPS {
+            self.look = looks / looking.looks as f64;
+        }
+    }
+}
+
 /// Makes real steps for some wall time. The first look is not counted: memory is touched for the first time.
 pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f64)>, patience: Duration) -> Trial {
     let mut trial = Trial::default();
     let begun = Instant::now();
-    let (mut counted, mut since) = (0, begun);
+    let mut made_in = [Made::default(); 2];
     let (mut late_time, mut late_particles) = (0.0, 0.0);
     let mut time = schedule.map_or(0.0, |(_, begins)| begins);
     let (mut at_once, mut interval) = (1.0, 0.0);
-    while begun.elapsed() < patience || counted == 0 {
+    let waits = |[plain, looking]: [Made; 2]| {
+        let more = if plain.steps == 0 { MORE_PATIENCE * patience } else { patience };
+        plain.steps + looking.steps == 0 || begun.elapsed() < more
+    };
+    while waits(made_in) {
         // A communication step is as long as the run's: what its beginning costs counts as often as there.
         if simulation.state().underway.is_none() {
             interval = match schedule.map(|(schedule, _)| schedule.after(time)) {
@@ -104,7 +144,8 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
                 None => WITHOUT_END * simulation.state().clock.step,
             };
         }
-        let (looked, before) = (Instant::now(), simulation.state().clock.steps);
+        let so_far = |it: &Simulation| (it.state().clock.steps, it.state().foresight.looks);
+        let (looked, (before, looks)) = (Instant::now(), so_far(simulation));
         // An interval may have any number of time steps: the clock is looked at within it, too.
         match simulation.advance_part(interval, at_once as u64) {
             Ok(_) => {}
@@ -113,14 +154,13 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
                 break;
             }
         }
-        let made = simulation.state().clock.steps - before;
-        if trial.steps == 0 {
-            since = Instant::now();
-        } else {
-            counted += made;
+        let (steps, after) = so_far(simulation);
+        let (made, looks, took) = (steps - before, after - looks, looked.elapsed().as_secs_f64());
+        if trial.steps > 0 {
+            let all = &mut made_in[usize::from(looks > 0)];
+            *all = Made { steps: all.steps + made, time: all.time + took, looks: all.looks + looks };
         }
         trial.steps += made;
-        let took = looked.elapsed().as_secs_f64();
         if looked.duration_since(begun) >= patience / 2 {
             late_time += took;
             late_particles += made as f64 * simulation.state().particles.len() as f64;
@@ -129,11 +169,10 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
         at_once = (BETWEEN_LOOKS / each.max(1e-9)).clamp(1.0, 1e6).floor();
     }
     trial.last_step = simulation.state().clock.step;
-    trial.step = match (counted, trial.steps) {
-        (0, 0) => 0.0,
-        (0, steps) => begun.elapsed().as_secs_f64() / steps as f64,
-        (counted, _) => since.elapsed().as_secs_f64() / counted as f64,
-    };
+    trial.weigh(made_in);
+    if trial.step == 0.0 && trial.steps > 0 {
+        trial.step = begun.elapsed().as_secs_f64() / trial.steps as f64;
+    }
     trial.particle = if late_particles > 0.0 { late_time / late_particles } else { 0.0 };
     trial
 }
@@ -173,6 +212,23 @@ mod tests {
         let source = Source { name: "scene.toml".into(), text: text.into(), files: BTreeMap::new() };
         let mut simulation = Simulation::new(Arc::new(Scene::from_source(&source).unwrap())).unwrap();
         assert!(steps(&mut simulation, None, Duration::ZERO).steps > 1);
+    }
+
+    #[test]
+    fn looks_of_a_short_trial_count_for_as_many_steps_as_a_run_has_between_them() {
+        let mut trial = Trial::default();
+        trial.weigh([Made { steps: 8, time: 0.8, looks: 0 }, Made { steps: 2, time: 2.76, looks: 2 }]);
+        // A step takes 0.1 s, two looks 2.56 s: a hundredth of a second in each of 256 steps.
+        assert!((trial.step - 0.11).abs() < 1e-12, "{} s", trial.step);
+        assert!((trial.look - 1.28).abs() < 1e-12, "{} s", trial.look);
+    }
+
+    #[test]
+    fn a_long_trial_counts_its_looks_as_they_came() {
+        let mut trial = Trial::default();
+        trial.weigh([Made { steps: 500, time: 5.0, looks: 0 }, Made { steps: 12, time: 2.68, looks: 3 }]);
+        assert!((trial.step - 7.68 / 512.0).abs() < 1e-12, "{} s", trial.step);
+        assert_eq!(trial.look, 0.0);
     }
 
     #[test]

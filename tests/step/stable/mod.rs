@@ -8,6 +8,7 @@ mod impacts;
 mod laws;
 mod linearised;
 mod scenes;
+mod threads;
 
 use crate::support::checked;
 use cograin::scene::{Scene, Step};

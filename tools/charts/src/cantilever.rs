@@ -23,16 +23,16 @@ pub(crate) const CHART: Chart = Chart {
 };
 
 /// Radius of a sphere \[m\].
-const RADIUS: f64 = 1e-3;
+pub(crate) const RADIUS: f64 = 1e-3;
 
 /// Spheres of the cantilever.
 const SPHERES: u32 = 10;
 
 /// Normal and tangential stiffness of bonds \[Pa/m\].
-const STIFFNESS: [f64; 2] = [1e12, 4e11];
+pub(crate) const STIFFNESS: [f64; 2] = [1e12, 4e11];
 
 /// Density \[kg/m³\].
-const DENSITY: f64 = 2500.0;
+pub(crate) const DENSITY: f64 = 2500.0;
 
 /// Load at the tip \[N\].
 const LOAD: f64 = 1e-3;
@@ -43,9 +43,12 @@ const PARTS: [f64; 6] = [0.9, 0.6, 0.4, 0.2, 0.1, 0.05];
 /// That of the run that the others are held against.
 const FINEST: f64 = 1.0 / 128.0;
 
+/// Bonds without damping.
+pub(crate) const FINITE_ROTATION: [&str; 3] = ["finite_rotation", "finite_rotation", ""];
+
 /// A formulation and a damping, as the legend and as the scene has them.
 const BONDS: [[&str; 3]; 6] = [
-    ["finite_rotation", "finite_rotation", ""],
+    FINITE_ROTATION,
     ["incremental", "incremental", ""],
     ["engine_exact", "engine_exact", ""],
     ["finite_rotation, viscous 0.05", "finite_rotation", "viscous 0.05"],
@@ -56,7 +59,7 @@ const BONDS: [[&str; 3]; 6] = [
 /// The static deflection of the tip \[m\] and the period of the first mode \[s\].
 ///
 /// Deflection of a chain of n bonds: F a² (4 n³ − n)/(12 k_θ) + F n/k_s; frequency: 1.8751² √(E I/(ρ A L⁴)) of Euler's beam.
-fn theory() -> [f64; 2] {
+pub(crate) fn theory() -> [f64; 2] {
     let (bonds, spacing) = (f64::from(SPHERES - 1), 2.0 * RADIUS);
     let (area, second_moment) = (PI * RADIUS * RADIUS, 0.25 * PI * RADIUS * RADIUS * RADIUS * RADIUS);
     let [bending, shear] = [STIFFNESS[0] * second_moment, STIFFNESS[1] * area];
@@ -69,7 +72,7 @@ fn theory() -> [f64; 2] {
 }
 
 /// Material, spheres and bonds.
-fn bonded(run: &str, spheres: &str, [_, formulation, damping]: [&str; 3]) -> String {
+pub(crate) fn bonded(run: &str, spheres: &str, [_, formulation, damping]: [&str; 3]) -> String {
     let [normal, tangential] = STIFFNESS;
     let mut text = format!(
         "[run]\n{run}\n[material.a]\ndensity = {DENSITY:?}\n[particles.row]\nmaterial = \"a\"\nlist = [\n{spheres}]\n\
@@ -87,7 +90,7 @@ fn bonded(run: &str, spheres: &str, [_, formulation, damping]: [&str; 3]) -> Str
 }
 
 /// The cantilever.
-fn cantilever(run: &str, bonds: [&str; 3]) -> String {
+pub(crate) fn cantilever(run: &str, bonds: [&str; 3]) -> String {
     let place = |number: u32| 2.0 * RADIUS * f64::from(number);
     let sphere = |number| format!("{{ position = [{:?}, 0.0, 0.0], radius = {RADIUS:?} }},\n", place(number));
     let spheres: String = (0..SPHERES).map(sphere).collect();
@@ -99,7 +102,7 @@ fn cantilever(run: &str, bonds: [&str; 3]) -> String {
 }
 
 /// Deflection of the tip \[m\].
-fn observe(stage: &Stage) -> Vec<f64> {
+pub(crate) fn observe(stage: &Stage) -> Vec<f64> {
     vec![stage.position(SPHERES as usize - 1)[2]]
 }
 

@@ -4,7 +4,7 @@
 //! which the contact may begin and end within a time step. Theory: the restitution that leaves is the one that the scene
 //! gives; Tsuji's dashpot is exact for Hertz's force, the dashpot of `hooke` for its spring, where the end may pull.
 
-use crate::drops::{Rebound, SPEED, Throw, hertz_duration, hooke_duration};
+use crate::drops::{SPEED, Throw, hertz_duration, hooke_duration};
 use crate::peers::{PEERS, Peer};
 use crate::schemes::{ENGINE, PREDICTED_NORMAL, SCHEMES, Scheme};
 use crate::{Chart, Measures};
@@ -56,18 +56,19 @@ impl Normal {
     }
 }
 
-/// The largest error of restitution.
-fn largest(rebounds: &[Rebound], restitution: f64) -> f64 {
-    rebounds.iter().map(|[velocity, _]| (velocity[2] / SPEED - restitution).abs()).fold(0.0, f64::max)
+/// The errors of restitution with so many time steps in an elastic contact, over the moments at which it begins and ends.
+pub(crate) fn errors(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Result<Vec<f64>, ChartError> {
+    let mut errors = Vec::new();
+    for end in ENDS {
+        let rebounds = normal.throw(restitution).steps(steps + end, scheme.run)?;
+        errors.extend(rebounds.iter().map(|[velocity, _]| velocity[2] / SPEED - restitution));
+    }
+    Ok(errors)
 }
 
-/// The largest error of restitution with so many steps in an elastic contact.
+/// The largest of them.
 pub(crate) fn error(normal: &Normal, restitution: f64, scheme: &Scheme, steps: f64) -> Result<f64, ChartError> {
-    let mut error = 0.0_f64;
-    for end in ENDS {
-        error = error.max(largest(&normal.throw(restitution).steps(steps + end, scheme.run)?, restitution));
-    }
-    Ok(error)
+    Ok(errors(normal, restitution, scheme, steps)?.into_iter().map(f64::abs).fold(0.0, f64::max))
 }
 
 /// Adds a row for each number of steps.

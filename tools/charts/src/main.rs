@@ -1,6 +1,7 @@
 //! Draws the charts of `docs/`: each is a file here with its name, what it shows, what it costs, and a function that computes its
 //! table.
 
+mod accuracy;
 mod bed;
 mod block;
 mod bodies;
@@ -12,6 +13,7 @@ mod drops;
 mod features;
 mod impact;
 mod kharaz;
+mod mean_impact;
 mod oblique;
 mod peers;
 mod rolling;
@@ -54,10 +56,12 @@ enum Measures {
 /// All charts.
 const CHARTS: &[Chart] = &[
     impact::CHART,
+    mean_impact::CHART,
     oblique::CHART,
     kharaz::CHART,
     rolling::CHART,
     cantilever::CHART,
+    accuracy::CHART,
     dashpots::CHART,
     cohesion::CHART,
     bed::CHART,

@@ -27,20 +27,36 @@ const MOST_TRIES: usize = 4;
 /// The automatic time step where nothing limits it and no end is known, until the first communication step does \[s\].
 const UNLIMITED: f64 = 1.0;
 
+/// The stable time step, and the network that it was found from, unless a quick bound sufficed.
+type Found<'a> = (stability::StableStep, Option<stability::Network<'a>>);
+
 impl Simulation {
     /// The stable time step of contacts and bonds as they may become soon, and of impacts to come; with what limits it.
     pub fn limit(&self) -> Limit {
-        let (sight, found, counter) = self.present_bound();
-        if let Some(safe) = self.limited_by_heat(&found) {
-            return Limit { safe, by: Some(Limiter::HEAT) };
-        }
-        let by = self.system().limiter(&sight.ahead, sight.speed, &found, counter, &self.standing());
-        Limit { safe: found.safe(), by }
+        self.workers.lend(|threads| {
+            let context = Context { threads, ..self.standing() };
+            let (sight, (found, network), counter) = self.present_bound(&context);
+            if let Some(safe) = self.limited_by_heat(&found) {
+                return Limit { safe, by: Some(Limiter::HEAT) };
+            }
+            let by = self.system().limiter(&sight.ahead, sight.speed, (&found, network), counter, &context);
+            Limit { safe: found.safe(), by }
+        })
     }
 
     /// The stable time step alone \[s\].
     pub fn stable_step(&self) -> f64 {
-        self.safe(&self.present_bound().1)
+        self.workers.lend(|threads| {
+            let (_, (found, _), _) = self.present_bound(&Context { threads, ..self.standing() });
+            self.safe(&found)
+        })
+    }
+
+    /// The stable time step of the last look, or of the hardest impact once particles are this fast \[m/s\], where that is shorter \[s\].
+    pub(crate) fn stable_step_at(&self, speed: f64) -> f64 {
+        let foreseen = stability::foreseen_speed(speed, self.boundary_speed(), FASTER);
+        let root = self.system().impact(foreseen, self.acceleration_of_fields()).unwrap_or(0.0);
+        self.state.clock.stable.min(2.0 / root)
     }
 
     /// The longest time step that heat allows, where it allows less than what was found \[s\].
@@ -55,10 +71,10 @@ impl Simulation {
     }
 
     /// The stable time step, what it was foreseen for, and how many iterations have been started.
-    fn present_bound(&self) -> (LookAhead, stability::StableStep, u64) {
+    fn present_bound(&self, context: &Context) -> (LookAhead, Found<'_>, u64) {
         let mut counter = self.state.foresight.counter;
         let (step, near) = (self.state.clock.step, Horizon::NEAR);
-        let (sight, found) = self.foresee(step, near, (0.0, f64::INFINITY), &mut counter, &self.standing());
+        let (sight, found) = self.foresee(step, near, (0.0, f64::INFINITY), &mut counter, context);
         (sight, found, counter)
     }
 
@@ -77,11 +93,11 @@ impl Simulation {
         (guess, enough): (f64, f64),
         counter: &mut u64,
         context: &Context,
-    ) -> (LookAhead, stability::StableStep) {
+    ) -> (LookAhead, Found<'_>) {
         let (mut step, mut tries) = (step, 0);
         loop {
             let sight = self.sight(step, horizon, guess);
-            let mut found = self.system().find(&sight.ahead, sight.speed, guess, enough, counter, context);
+            let (mut found, network) = self.system().find(&sight.ahead, sight.speed, guess, enough, counter, context);
             // Without a network impacts to come are all that there is: the stable step is finite where anything can touch.
             if found.network > 0.0 && !self.may_strangers_meet(&sight, &found, step) {
                 found.impacts = 0.0;
@@ -90,7 +106,7 @@ impl Simulation {
             tries += 1;
             let fits = next <= MUCH_LONGER * step && step <= MUCH_SHORTER * next;
             if fits || sight.rests || tries == MOST_TRIES {
-                return (sight, found);
+                return (sight, (found, network));
             }
             // Where too much was foreseen, the step is between: the one that follows from it foresees too little.
             step = if next < step { (step * next).sqrt() } else { next };
@@ -122,9 +138,9 @@ impl Simulation {
         let (mut counter, horizon) = (self.state.foresight.counter, self.horizon(step));
         let enough = if let Step::Given(step) = self.scene.run.step { FAR_BELOW * step } else { f64::INFINITY };
         let from = (self.state.foresight.root, enough);
-        let (mut sight, mut found) = self.foresee(step, horizon, from, &mut counter, context);
+        let (mut sight, (mut found, _)) = self.foresee(step, horizon, from, &mut counter, context);
         if horizon.is_far && found.safe() < FAR_BELOW * step {
-            (sight, found) = self.foresee(step, Horizon::NEAR, from, &mut counter, context);
+            (sight, (found, _)) = self.foresee(step, Horizon::NEAR, from, &mut counter, context);
         }
         let (bonds, looks) = (bonds_so_far(&self.state), self.state.foresight.looks + 1);
         let window = sight.ahead.window.as_ref();
@@ -151,7 +167,7 @@ impl Simulation {
         if step > safe && is_given && !self.divides() && !self.scene.run.allow_unstable {
             let by = match self.limited_by_heat(&found) {
                 Some(_) => Some(Limiter::HEAT),
-                None => self.system().limiter(&sight.ahead, sight.speed, &found, counter, context),
+                None => self.system().limiter(&sight.ahead, sight.speed, (&found, None), counter, context),
             };
             let by = by.map_or_else(String::new, |by| self.words(&by));
             return Err(RunError::StepTooLong { step, stable: safe, by, time: self.time() });

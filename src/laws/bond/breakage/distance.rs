@@ -1,17 +1,18 @@
 //! Breakage by distance.
 
 use super::{Breakage, Loaded, Strength};
+use crate::base::document::keys;
 use crate::base::number::Number;
 use crate::base::quantity::Positive;
 use crate::laws::bond::formulation::FormulationChoice;
-use serde::Deserialize;
 
-/// Those of [`Distance`], in `[bond.<name>.breakage]`.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// Distance of the centres beyond which the bond breaks \[m\].
-    pub max_distance: Positive,
+keys! {
+    /// Those of [`Distance`], in `[bond.<name>.breakage]`.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Keys {
+        /// Largest distance of the centres, at a plane of centre and foot of the bond \[m\].
+        pub max_distance: Positive = "∞",
+    }
 }
 
 /// Breaks where the centres (at a plane: centre and foot) are further apart than `max_distance`, as the engine does without

@@ -1,22 +1,23 @@
 //! Breakage by Mohr and Coulomb's limit on the principal stresses at the rim, with a limit of tension.
 
 use super::{Breakage, BreakageChoice, Loaded, Strength};
+use crate::base::document::keys;
 use crate::base::number::Number;
 use crate::base::quantity::{NonNegative, Positive};
 use crate::laws::bond::formulation::FormulationChoice;
 use crate::laws::bond::key_error::KeyError;
-use serde::Deserialize;
 
-/// `[bond.<name>.breakage.mohr_coulomb]`
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// c: shear strength where nothing presses \[Pa\].
-    pub cohesion: Positive,
-    /// φ: angle of internal friction, from 0 to below π/2 \[rad\].
-    pub friction_angle: NonNegative,
-    /// T: largest principal tension \[Pa\].
-    pub tensile_strength: Positive,
+keys! {
+    /// `[bond.<name>.breakage.mohr_coulomb]`
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Keys {
+        /// c, with which (σ₁ − σ₃) + (σ₁ + σ₃) sin φ > 2 c cos φ breaks the bond by `shear` \[Pa\].
+        pub cohesion: Positive = "required",
+        /// Angle of internal friction φ, below π/2 \[rad\].
+        pub friction_angle: NonNegative = "required",
+        /// Limit T of σ₁, above which the bond breaks by `tension`; at most c cot φ \[Pa\].
+        pub tensile_strength: Positive = "required",
+    }
 }
 
 /// Breaks where the material of the bond would, by the principal stresses on the two sides of its rim.

@@ -1,26 +1,27 @@
 //! Breakage by the largest stresses at the rim.
 
 use super::{Breakage, BreakageChoice, Loaded, Strength, distance};
+use crate::base::document::keys;
 use crate::base::number::Number;
 use crate::base::quantity::{NonNegative, Positive};
 use crate::laws::bond::formulation::FormulationChoice;
 use crate::laws::bond::key_error::KeyError;
-use serde::Deserialize;
 
-/// Those of [`StressLimits`], in `[bond.<name>.breakage]`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// Largest normal stress \[Pa\].
-    pub max_normal_stress: Option<Positive>,
-    /// Largest shear stress without normal force \[Pa\].
-    pub max_shear_stress: Option<Positive>,
-    /// Strength in tension over that in compression.
-    pub tension_ratio: Option<Positive>,
-    /// φ of the growth of shear strength with compression, from 0 to below π/2 \[rad\].
-    pub friction_angle: Option<NonNegative>,
-    /// Whether compression adds to the normal stress (as in the engine) or relieves it.
-    pub compression_breaks: Option<bool>,
+keys! {
+    /// Those of [`StressLimits`], in `[bond.<name>.breakage]`.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// Limit S of σ \[Pa\].
+        pub max_normal_stress: Option<Positive> = "∞",
+        /// Limit of τ \[Pa\].
+        pub max_shear_stress: Option<Positive> = "∞",
+        /// S of a stretched bond over that of a compressed one.
+        pub tension_ratio: Option<Positive> = "1",
+        /// φ, below π/2: the limit of τ rises by tan φ times the compressive stress, and falls so with tension \[rad\].
+        pub friction_angle: Option<NonNegative> = "0",
+        /// Whether compression adds \|N\|/A to σ, not −\|N\|/A (Potyondy & Cundall).
+        pub compression_breaks: Option<bool> = "`false`; `engine_exact`: `true`",
+    }
 }
 
 /// |u| below which the engine takes a bond for stretched \[m\].

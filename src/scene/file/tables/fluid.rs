@@ -26,8 +26,8 @@ keys! {
         pub(in crate::scene::file) grid: Option<String> = "everywhere",
         /// The pressure gradient is an input: `"total"`, or `"dynamic"` without ρ g.
         pub(in crate::scene::file) pressure: Option<Pressure> = "ρ g, no input",
-        /// Part of space that the particles leave to it; required by `di_felice`, `gidaspow`, `koch_hill`, `beetstra` without a grid.
-        pub(in crate::scene::file) porosity: Option<Porosity> = "1",
+        /// Part of space that the particles leave to it.
+        pub(in crate::scene::file) porosity: Option<Porosity> = "1; laws of beds need it, or a grid",
         /// Whether it brakes rotation.
         #[serde(default)]
         pub(in crate::scene::file) torque: bool = "`false`",

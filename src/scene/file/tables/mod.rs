@@ -79,7 +79,7 @@ keys! {
         pub(in crate::scene::file) allow_unstable: Option<bool> = "`false`",
         /// Whether a given step above the stable one stops the run instead of being divided; not with `allow_unstable`.
         pub(in crate::scene::file) strict_step: Option<bool> = "`false`; `true` beside bonds that need the very step",
-        /// Number of threads; results do not depend on it.
+        /// Number of threads, of which one works on fewer than 2000 particles; results do not depend on it.
         pub(in crate::scene::file) threads: Option<NonZeroU32> = "those of the machine",
         /// Seed of everything random (ChaCha8), 0 to 18446744073709551615.
         pub(in crate::scene::file) seed: Option<u64> = "1",
@@ -112,7 +112,7 @@ keys! {
         pub(in crate::scene::file) youngs_modulus: Option<Positive> = "not needed if no law uses it",
         /// Poisson's ratio ν.
         pub(in crate::scene::file) poissons_ratio: Option<PoissonsRatio> = "not needed if no law uses it",
-        /// Conductivity k \[W/(m K)\], see [heat.md](heat.md).
+        /// Conductivity k \[W/(m K)\].
         pub(in crate::scene::file) conductivity: Option<Positive> = "not needed if no heat model uses it",
         /// Specific heat c \[J/(kg K)\].
         pub(in crate::scene::file) specific_heat: Option<Positive> = "not needed where no heat flows",
@@ -161,9 +161,9 @@ keys! {
     pub(in crate::scene::file) struct DampingTable {
         /// A choice of particles.
         pub(in crate::scene::file) particles: Option<Selection> = "all, those that come later included",
-        /// Fraction of the force.
+        /// Fraction of the unbalanced force.
         pub(in crate::scene::file) linear: Fraction = "required",
-        /// Fraction of the torque.
+        /// Fraction of the unbalanced torque.
         pub(in crate::scene::file) angular: Fraction = "required",
         /// A factor on both, particle by particle, see below.
         pub(in crate::scene::file) scale: Option<ScaleTable> = "1",
