@@ -10,7 +10,7 @@ use crate::engine::state::{State, StateFault};
 use crate::scene::packing::made::Packed;
 use crate::scene::{Packings, Scene};
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -61,7 +61,8 @@ fn write_whole_by(
 
 /// Makes sure that a file written earlier is on the disk.
 pub(crate) fn sync(path: &Path) -> Result<(), OutputError> {
-    File::open(path).and_then(|file| file.sync_all()).map_err(OutputError::at(path))
+    // Windows asks for the right to write.
+    OpenOptions::new().write(true).open(path).and_then(|file| file.sync_all()).map_err(OutputError::at(path))
 }
 
 /// Whether a path still leads to this open file, and through no link.
