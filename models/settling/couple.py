@@ -47,7 +47,7 @@ def export(program, folder, count):
 def course(unit, interval):
     """A suspension until it sinks steadily: porosity and speed [m/s] in the middle, evaluations a step."""
     side = FluidInterface(unit, "syrup")
-    column = Column(side, DENSITY, gravity=-GRAVITY)
+    column = Column(side)
     coupling = Coupling(side, column, QuasiNewton(), interval)
     middle, found = slice(len(side.cells) // 4, -(len(side.cells) // 4)), []
     for row in coupling.steps(STEADY):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -54,7 +55,8 @@ class FluidInterface:
 
     The scene has ``[fluid.<name>]`` with a ``grid``, ``velocity = "driven"`` and ``pressure = "total"``. ``axes`` are
     those along which the partner moves the fluid: a `Column`, or a `cograin.plane_flow.PlaneFlow`. The exchange is
-    `QuasiNewton`.
+    `QuasiNewton`. ``density`` \\[kg/m³\\], ``viscosity`` \\[Pa s\\] and ``rest`` are those of the unit: this is the
+    pressure gradient ρ g of the fluid at rest, along the axes \\[Pa/m\\].
     """
 
     keeps_itself = True
@@ -65,8 +67,12 @@ class FluidInterface:
         if not axes or len(set(axes)) < len(axes) or not set(axes) <= set("xyz"):
             raise ValueError(f"axes: expected some of x, y and z, found {axes!r}")
         self.units = [unit]
-        self.cells: Cells = unit.cells(fluid)
+        self.cells: Cells = _solved(unit, fluid)
         self.axes = axes
+        self.density, self.viscosity = (unit.number(f"fluid.{fluid}.{name}") for name in ("density", "viscosity"))
+        described = [float(unit.variables[name].start) for name in self._names("pressure_gradient")[: len(axes)]]
+        heavier = self.density / float(unit.variables[f"fluid.{fluid}.density"].start)
+        self.rest: Vector = vector(described) * heavier
         self._given = tuple(name for quantity in ("velocity", "pressure_gradient") for name in self._names(quantity))
         answers = ("mean_drag", "mean_pressure_force", "mean_solid_flux")
         along = tuple(name for quantity in answers for name in self._names(quantity))
@@ -159,6 +165,20 @@ class FluidInterface:
         self.displacement = memory
 
 
+def _solved(unit: Unit, fluid: str) -> Cells:
+    """The cells of a fluid whose flow a partner solves; refuses others."""
+    cells = unit.cells(fluid)
+    if "velocity" not in cells.quantities:
+        raise ValueError(f'{unit.name}: [fluid.{fluid}]: expected velocity = "driven", found another one')
+    # Scenes are TOML 1.1, which Python's reader of TOML does not know. A scene has one fluid.
+    scene = (unit.folder / "resources" / "scene.toml").read_text(encoding="utf-8")
+    dynamic = re.search(r"""^[^#\n]*\bpressure["']?\s*=\s*["']dynamic["']""", scene, re.MULTILINE)
+    if dynamic or "pressure_gradient" not in cells.quantities:
+        found = '"dynamic"' if dynamic else "none"
+        raise ValueError(f'{unit.name}: [fluid.{fluid}]: expected pressure = "total", found {found}')
+    return cells
+
+
 #: Velocity of what flows in \\[m/s\\], superficial: a number, or a function of time.
 Inflow = float | Callable[[float], float]
 
@@ -172,19 +192,17 @@ class Column:
         ρ [∂(ε u)/∂t + ∂(ε u u)/∂z] = −ε ∂p/∂z + drag/V + ε ρ g,
 
     with drag as a straight line in u by the particles' own coefficient. What they felt of the pressure beside
-    (1 − ε) V ∂p/∂z, in sum over the column, is spread evenly. ``density`` ρ \\[kg/m³\\] and ``gravity`` g along the
-    column \\[m/s²\\] are those of the scene; p contains that of the fluid at rest.
+    (1 − ε) V ∂p/∂z, in sum over the column, is spread evenly. ρ and g are those of the unit; p contains that of the
+    fluid at rest.
 
     A step is implicit. What the fluid keeps is exact whatever is left between both sides: the volume by what the
     particles take up, the momentum by the forces that they found.
     """
 
-    def __init__(self, side: FluidInterface, density: float, *, gravity: float = -9.81, inflow: Inflow = 0.0) -> None:
-        if not 0.0 < density < float("inf"):
-            raise ValueError(f"density: expected a number above 0, found {density}")
+    def __init__(self, side: FluidInterface, *, inflow: Inflow = 0.0) -> None:
         if len(side.axes) != 1:
             raise ValueError(f"a column has one axis, found an interface of {side.axes}")
-        self.density, self.gravity, self.inflow = float(density), float(gravity), inflow
+        self.density, self.rest, self.inflow = side.density, float(side.rest[0]), inflow
         self._side = side
         self.height, self.volume = _stacked(side)
         response = side.response(side.force("mean"))
@@ -233,7 +251,7 @@ class Column:
         conveyed = np.diff(faces * np.where(faces > 0.0, ends[:-1], ends[1:])) / self.height
         kept = (flux - self.porosity * self.velocity) / step.length
         mean = 0.5 * (response.porosity + self.porosity)
-        found: Vector = self.density * self.volume * (mean * self.gravity - kept - conveyed)
+        found: Vector = self.volume * (mean * self.rest - self.density * (kept + conveyed))
         return found
 
     def compliance(self, step: Step) -> Matrix:
@@ -259,7 +277,7 @@ class Column:
 
     def settings(self) -> dict[str, Any]:
         """What it was made with."""
-        return {name: getattr(self, name) for name in ("density", "gravity", "inflow", "height", "volume")}
+        return {name: getattr(self, name) for name in ("density", "rest", "inflow", "height", "volume")}
 
     def memory(self) -> Any:
         """What its steps change."""

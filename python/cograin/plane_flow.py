@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import itertools
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,12 @@ from cograin.partners.step import Step
 
 #: Sides of the box: across the first axis, then across the second one.
 SIDES = ("low", "high")
+#: Superficial velocity along the axes \\[m/s\\]; none of a component that is free, as along a smooth wall.
+Given = tuple[float | None, float | None]
+#: That of a side: all along it, or by stretches from one place to another \\[m\\].
+Through = Given | Mapping[tuple[float, float], Given]
+#: Pressure beside that of the fluid at rest \\[Pa\\]: a number, or a function of time.
+Excess = float | Callable[[float], float]
 
 
 class PlaneFlow:
@@ -30,33 +37,34 @@ class PlaneFlow:
     the way (ρ u·∇u) is left out, so the flow is slow beside what the particles resist.
 
     ``velocity`` gives U \\[m/s\\] of sides of the box by their names, as ``{"x_low": (0.01, 0.0), "z_low": (0, 0)}``:
-    zeros are a wall. Sides that are not named are open, at the pressure of the fluid at rest. ``viscosity`` µ
-    \\[Pa s\\], ``density`` ρ \\[kg/m³\\] and ``gravity`` g along the axes \\[m/s²\\] are those of the scene; p contains
-    that of the fluid at rest.
+    zeros are a wall, ``(0, None)`` is a smooth one across x. A side may have it on stretches alone, whole cells:
+    ``{"x_low": {(0.01, 0.03): (0, 0)}}`` is a wall from z = 0.01 to 0.03 m. What is not named is open, at the pressure
+    of the fluid at rest and ``pressure`` \\[Pa\\] beside, as ``{"x_low": 200.0}`` or a function of time. ρ, µ and g are
+    those of the unit; p contains that of the fluid at rest.
     """
 
     def __init__(
         self,
         side: FluidInterface,
-        density: float,
-        viscosity: float,
         *,
-        gravity: tuple[float, float] = (0.0, -9.81),
-        velocity: Mapping[str, tuple[float, float]],
+        velocity: Mapping[str, Through],
+        pressure: Mapping[str, Excess] | None = None,
     ) -> None:
         if len(side.axes) != 2:
             raise ValueError(f"a plane has two axes, found an interface of {side.axes!r}")
         names = [f"{axis}_{end}" for axis in side.axes for end in SIDES]
-        for name in velocity:
-            if name not in names:
-                raise ValueError(f"velocity: expected sides among {', '.join(names)}, found {name}")
-        if len(velocity) == len(names):
-            raise ValueError("velocity: expected a side that is open, found none: the pressure would be unknown")
-        self.density, self.viscosity = float(density), float(viscosity)
-        self.gravity = vector(gravity)
-        self.sides = {name: tuple(map(float, velocity[name])) for name in velocity}
+        self.open = dict(pressure or {})
+        for what, given in (("velocity", velocity), ("pressure", self.open)):
+            for name in given:
+                if name not in names:
+                    raise ValueError(f"{what}: expected sides among {', '.join(names)}, found {name}")
+        self.density, self.viscosity, self.rest = side.density, side.viscosity, side.rest
+        self.sides = {name: _stretches(velocity[name]) for name in velocity}
         self._side = side
-        self._elements = _Elements(side, self.sides, self.density, self.gravity)
+        self._elements = _Elements(side, self.sides, self.rest)
+        for name in self.open:
+            if not self._elements.is_open(name):
+                raise ValueError(f"pressure: expected a side that is open, found {name}, all of which has a velocity")
         self.displacement: Vector = vector(side.displacement)
         self._response = side.response(side.force("mean"))
         flux = self._response.velocity * self._response.porosity[:, None]
@@ -96,7 +104,7 @@ class PlaneFlow:
         still = response.drag_at(0.0 * response.velocity) / volume
         # Spread evenly it is held by a pressure and moves nothing; so the sum is what the particles felt.
         even = response.pressure_left(volume).mean(axis=0) / volume
-        weight = porosity[:, None] * (self.density * self.gravity)
+        weight = porosity[:, None] * self.rest
         inertia = self.density / step.length
         return self._elements.solved(
             (inertia + resisted, self.viscosity, porosity),
@@ -104,6 +112,7 @@ class PlaneFlow:
             response.solid_flux,
             inertia,
             self._state,
+            {name: _at(excess, step.middle) for name, excess in self.open.items()},
         )
 
     def compliance(self, step: Step) -> Matrix:
@@ -123,7 +132,7 @@ class PlaneFlow:
 
     def settings(self) -> dict[str, Any]:
         """What it was made with."""
-        return {name: getattr(self, name) for name in ("density", "viscosity", "gravity", "sides", "cells")}
+        return {name: getattr(self, name) for name in ("density", "viscosity", "rest", "sides", "open", "cells")}
 
     def memory(self) -> Any:
         """What its steps change."""
@@ -135,10 +144,26 @@ class PlaneFlow:
         self._response = Response(*response)
 
 
+#: Velocities on stretches of a side.
+Stretches = dict[tuple[float, float], Given]
+
+
+def _stretches(through: Through) -> Stretches:
+    """Stretches of a side with their velocities."""
+    if not isinstance(through, Mapping):
+        through = {(-np.inf, np.inf): through}
+    return {(float(begin), float(end)): velocity for (begin, end), velocity in through.items()}
+
+
+def _at(excess: Excess, time: float) -> float:
+    """A pressure at this time \\[Pa\\]."""
+    return excess(time) if callable(excess) else excess
+
+
 class _Elements:
     """Quadrilaterals of Taylor and Hood on the cells of a grid, with its boundary conditions."""
 
-    def __init__(self, side: FluidInterface, given: Mapping[str, Any], density: float, gravity: Vector) -> None:
+    def __init__(self, side: FluidInterface, given: Mapping[str, Stretches], rest: Vector) -> None:
         fem = needed("skfem", "elements")
         helpers = needed("skfem.helpers", "elements")
         places = ["xyz".index(axis) for axis in side.axes]
@@ -161,7 +186,7 @@ class _Elements:
         self._areas = np.array([np.prod([np.ptp(line) for line in mesh.p[:, cell]]) for cell in mesh.t.T])
         self.corners = mesh.p.T
         self._assemble(fem, helpers)
-        self._bound(fem, mesh, side.axes, given, density, gravity)
+        self._bound(fem, mesh, side.axes, given, rest)
 
     def _assemble(self, fem: Any, helpers: Any) -> None:
         """The matrices that do not change, and forms of those that do."""
@@ -179,28 +204,48 @@ class _Elements:
         self._slopes = [form.assemble(self._pressure, self._cells) for form in slopes]
         self._own = self._cells.element_dofs[0]
 
-    def _bound(self, fem: Any, mesh: Any, axes: str, given: Mapping[str, Any], density: float, gravity: Vector) -> None:
+    def _bound(self, fem: Any, mesh: Any, axes: str, given: Mapping[str, Stretches], rest: Vector) -> None:
         """What is known: velocities of walls and inlets, pressures of open sides, what flows through the sides."""
         self._known = np.zeros(self._flow.N + self._pressure.N, dtype=bool)
         self._values = np.zeros(len(self._known))
         self._through = np.zeros(self._pressure.N)
-        rest = density * (gravity @ self._pressure.doflocs)
-        for axis in range(2):
-            for end, place in zip(SIDES, (mesh.p[axis].min(), mesh.p[axis].max()), strict=True):
-                facets = mesh.facets_satisfying(lambda x, axis=axis, place=place: np.isclose(x[axis], place))
-                name = f"{axes[axis]}_{end}"
-                if name not in given:
-                    dofs = self._pressure.N and self._pressure.get_dofs(facets).all()
-                    self._known[self.flows + dofs] = True
-                    self._values[self.flows + dofs] = rest[dofs]
-                    continue
-                for number in range(2):
-                    dofs = self._flow.get_dofs(facets).all(f"u^{number + 1}")
-                    self._known[dofs] = True
-                    self._values[dofs] = given[name][number]
-                boundary = fem.FacetBasis(mesh, fem.ElementQuad1(), facets=facets)
-                entering = given[name][axis] * (1.0 if end == "high" else -1.0)
-                self._through += fem.LinearForm(lambda q, w, entering=entering: entering * q).assemble(boundary)
+        self._open: dict[str, Any] = {}
+        at_rest = rest @ self._pressure.doflocs
+        for axis, end in itertools.product(range(2), SIDES):
+            place = mesh.p[axis].min() if end == "low" else mesh.p[axis].max()
+            facets = mesh.facets_satisfying(lambda x, axis=axis, place=place: np.isclose(x[axis], place))
+            middles = mesh.p[1 - axis][mesh.facets[:, facets]].mean(axis=0)
+            left = np.ones(len(facets), dtype=bool)
+            for (begin, finish), velocity in given.get(f"{axes[axis]}_{end}", {}).items():
+                within = (middles > begin) & (middles < finish)
+                left &= ~within
+                self._let_through(fem, mesh, facets[within], velocity, axis, 1.0 if end == "high" else -1.0)
+            if left.any():
+                dofs = self.flows + self._pressure.get_dofs(facets[left]).all()
+                self._open[f"{axes[axis]}_{end}"] = dofs
+                self._known[dofs] = True
+                self._values[dofs] = at_rest[dofs - self.flows]
+        if not self._open:
+            raise ValueError("velocity: expected a side that is open, found none: the pressure would be unknown")
+
+    def _let_through(self, fem: Any, mesh: Any, facets: Any, velocity: Any, axis: int, outwards: float) -> None:
+        """Velocities on these facets, and what flows through them."""
+        if not len(facets):
+            raise ValueError("velocity: expected stretches of a cell and more, found one without")
+        if velocity[axis] is None:
+            raise ValueError(f"velocity: expected a number across a side, found {velocity}")
+        for number, component in enumerate(velocity):
+            if component is not None:
+                dofs = self._flow.get_dofs(facets).all(f"u^{number + 1}")
+                self._known[dofs] = True
+                self._values[dofs] = component
+        boundary = fem.FacetBasis(mesh, fem.ElementQuad1(), facets=facets)
+        leaving = velocity[axis] * outwards
+        self._through += fem.LinearForm(lambda q, w: leaving * q).assemble(boundary)
+
+    def is_open(self, name: str) -> bool:
+        """Whether a part of a side has a pressure."""
+        return name in self._open
 
     def _field(self, values: Vector) -> Any:
         """Numbers of the unit's cells as a field."""
@@ -218,7 +263,13 @@ class _Elements:
         return found
 
     def solved(
-        self, coefficients: tuple[Vector, float, Vector], push: Matrix, solid: Matrix, inertia: float, before: Vector
+        self,
+        coefficients: tuple[Vector, float, Vector],
+        push: Matrix,
+        solid: Matrix,
+        inertia: float,
+        before: Vector,
+        excess: Mapping[str, float],
     ) -> Vector:
         """Velocities and pressures of a step; coefficients are those of U, of its Laplacian and of the gradient."""
         resisted, viscosity, porosity = coefficients
@@ -230,6 +281,8 @@ class _Elements:
         matrix = csc_matrix(bmat([[mass, gradient], [self._flux, None]]))
         free = ~self._known
         found = self._values.copy()
+        for name, pressure in excess.items():
+            found[self._open[name]] = self._values[self._open[name]] + pressure
         rest = np.concatenate([right, self._through - source]) - matrix @ found
         found[free] = splu(matrix[free][:, free]).solve(rest[free])
         return found

@@ -38,7 +38,7 @@ def test_a_column_of_water_by_fmpy_alone_is_that_of_cograin(script, opened):
     found = script("fluid.md", "import fmpy\nimport numpy", WET)
     assert found["repetition"] < 199
     unit = opened(WET)
-    column, coupling = coupled(unit, 1000.0, 0.0, 1e-3)
+    column, coupling = coupled(unit, 0.0, 1e-3)
     for _ in coupling.steps(5e-3):
         pass
     # The script leaves out what the fluid conveys, and what weights spread of the force of the pressure.

@@ -93,6 +93,7 @@ COURSES = {
     "wheel": Course(interval=1e-3, steps=20),
     "fluidised_column": Course(interval=1e-3, steps=8),
     "settling": Course(interval=1e-3, steps=8),
+    "seepage": Course(interval=9e-4, steps=8),
     "brazilian": Course(interval=1e-5, steps=8, amplitude=-2e-6),
 }
 

@@ -99,7 +99,12 @@ def test_the_heated_plate_begins_as_expected_and_no_heat_is_lost(request, tmp_pa
 
 
 @pytest.mark.parametrize(
-    ("name", "options"), [("fluidised_column", ["--end", "0.02"]), ("settling", ["--counts", "200", "490"])]
+    ("name", "options"),
+    [
+        ("fluidised_column", ["--end", "0.02"]),
+        ("settling", ["--counts", "200", "490"]),
+        ("seepage", ["--end", "0.012"]),
+    ],
 )
 def test_grains_in_a_fluid_do_as_expected(request, name, options, tmp_path):
     folder = ROOT / "models" / name

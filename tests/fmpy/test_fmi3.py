@@ -357,6 +357,23 @@ def test_a_grid_of_8000_cells_is_four_fields_in_a_short_description(cograin, sla
     assert sum(fields.slave.getInt32(fields.references(["field.cell.count"]), 8000)) == 1
 
 
+def test_the_cells_of_a_fluid_are_arrays_with_the_bits_of_fmi_2(unit, unit3, slave, slave3):
+    old, new = slave(unit("settling")), slave3(unit3("settling"))
+    cells, vectors = old.unit.cells("syrup"), ("velocity", "pressure_gradient", "mean_drag", "mean_pressure_force")
+    expected = dict.fromkeys((*vectors, "mean_solid_flux"), (10, 3)) | {"porosity": (10,), "drag_coefficient": (10,)}
+    assert {name: new.variables[f"syrup.cell.{name}"].shape for name in expected} == expected
+    for step in range(1, 4):
+        for quantity, size in (("velocity", 1e-3), ("pressure_gradient", 1e4)):
+            given = size * step * np.cos(np.arange(30.0) + size).reshape(10, 3)
+            cells[quantity] = given
+            new.set(f"syrup.cell.{quantity}", given.ravel())
+        old.unit.step(1e-3)
+        new.slave.doStep(1e-3 * (step - 1), 1e-3)
+        for quantity in expected:
+            assert new.get(f"syrup.cell.{quantity}") == cells[quantity].ravel().tolist(), f"{quantity} in step {step}"
+    assert np.abs(cells["mean_drag"]).min() > 0.0
+
+
 def test_a_host_in_c_gets_the_same_digits(unit, unit3, slave, tmp_path):
     compiler = shutil.which("cc")
     assert compiler, "a C compiler is needed to try a host in C"

@@ -8,7 +8,7 @@ STEP, END, RATE = 2e-3, 0.5, 2.4  # [s], [s], growth of the velocity [m/s²]
 Program().export("scene.toml", "fluidised_column.fmu")
 with Unit("fluidised_column.fmu") as bed:
     side = FluidInterface(bed, "air")
-    air = Column(side, density=1.2, inflow=lambda time: RATE * time)  # superficial velocity below [m/s]
+    air = Column(side, inflow=lambda time: RATE * time)  # superficial velocity below [m/s]
     coupling = Coupling(side, air, QuasiNewton(), STEP, watch=["floor.force.z"])
     print("time [s],velocity [m/s],pressure drop [Pa],force on the floor [N],evaluations")
     for row in coupling.steps(END):
