@@ -40,7 +40,7 @@ mod laws;
 mod output;
 pub mod scene;
 
-pub use base::{geometry, lanes, memory, number, quantity, words};
+pub use base::{geometry, lanes, memory, number, powers, quantity, words};
 pub use engine::{averages, simulation, state, statics};
 pub use laws::{bond, column, contact, convection, drag, motion, region, surface, wear};
 pub use output::{export, report, results, run};

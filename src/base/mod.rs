@@ -6,6 +6,7 @@ pub mod geometry;
 pub mod lanes;
 pub mod memory;
 pub mod number;
+pub mod powers;
 pub mod quantity;
 pub(crate) mod threads;
 pub(crate) mod vtk_reader;

@@ -67,6 +67,11 @@ pub(super) const SIX: &str = "box = [[0.0, 0.0, 0.0], [0.06, 0.03, 0.02]]\ncount
 
 /// Grains and clumps that move through each other in the stirred water of a grid; `grid` and `more` tables.
 pub(super) fn stirred(threads: usize, grid: &str, more: &str) -> Simulation {
+    stirred_by(threads, grid, "", more)
+}
+
+/// The same with more keys of the water.
+pub(super) fn stirred_by(threads: usize, grid: &str, keys: &str, more: &str) -> Simulation {
     start(&format!(
         r#"
 [run]
@@ -100,6 +105,7 @@ viscosity = 1.0e-3
 grid = "column"
 velocity = "driven"
 torque = true
+{keys}
 [fluid.water.drag.di_felice]
 {more}
 "#

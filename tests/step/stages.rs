@@ -134,10 +134,17 @@ edges = [[0.012, 0.0, 0.0], [0.0, 0.012, 0.0], [0.0, 0.0, 0.012]]
 motion = { driven = ["xy"], servo = { zz = { stress = -1e3, max_rate = 1.0 } } }
 "#;
 
-/// Grains in a fluid to and fro.
+/// Grains and a clump in a fluid to and fro.
 const WATER: &str = r#"
 gravity = [0.0, 0.0, -9.81]
 LAWS
+[clump.pair]
+spheres = [{ position = [0.0, 0.0, 0.0], radius = 0.002 }, { position = [0.003, 0.0, 0.0], radius = 0.002 }]
+[particles.clumps]
+material = "a"
+temperature = 300.0
+clump = "pair"
+list = [{ position = [0.02, 0.0, 0.004], velocity = [0.1, 0.0, 0.2] }]
 [particles.loose]
 material = "a"
 temperature = 300.0

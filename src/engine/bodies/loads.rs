@@ -120,7 +120,7 @@ fn load_clumps((fields, medium): (&Fields, Option<&Medium>), state: &mut State, 
             let mut dashpots = [0.0; 2];
             if fields.act_beside_weight() {
                 let motion = [body.rigid.velocity, Vector::from(clumps_now.angular_velocity[clump])];
-                if let Some((stream, here)) =
+                if let Some((stream, (here, _))) =
                     stream.and_then(|it| Some((it, it.at(clumps_now.position[clump].into())?)))
                 {
                     let other = body.own_loads(fields, particles).into_iter().fold(load[0], |sum, own| sum + own[0]);

@@ -3,11 +3,12 @@
 use super::sums::Given;
 use super::{Medium, Stream};
 use crate::base::lanes::Shared;
-use crate::base::number::{Vector, larger};
+use crate::base::number::{Vector, add, larger};
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::state::State;
 use crate::engine::state::heat::difference;
 use crate::laws::region::Weights;
+use std::ops::Range;
 
 /// The slot with the temperature of a body: its own, or that of the first sphere of a clump. Bodies are the particles but images and spheres
 /// of clumps and, counted on behind these, clumps.
@@ -24,7 +25,7 @@ fn slot_of(state: &State, body: usize) -> Option<usize> {
 
 impl Stream<'_> {
     /// Conductance to a body \[W/K\], the temperature of the fluid there \[K\] and the cells that are around it.
-    fn convects(&self, state: &State, body: usize) -> Option<(f64, f64, Option<Weights>)> {
+    fn convects(&self, state: &State, body: usize) -> Option<(f64, f64, Weights)> {
         let particles = &state.particles;
         let (place, velocity, diameter) = match body.checked_sub(particles.len()) {
             None => (particles.position[body], particles.velocity[body], 2.0 * particles.position[body][3]),
@@ -33,8 +34,8 @@ impl Stream<'_> {
                 (clumps.position[clump], clumps.velocity[clump], self.diameter(clumps, clump))
             }
         };
-        let here = self.at(place.into())?;
-        Some((here.conductance(diameter, Vector::from(velocity)), self.temperature(&here), here.weights))
+        let (here, weights) = self.at(place.into())?;
+        Some((here.conductance(diameter, Vector::from(velocity)), self.temperature(&weights), weights))
     }
 }
 
@@ -54,13 +55,12 @@ pub(crate) fn convect(medium: &mut Medium, state: &mut State, context: &Context)
         let flow = conductance * difference([temperature, 0.0], [row[0], row[1]]);
         (row[2], row[3]) = (row[2] + flow, row[3] + conductance);
         let row = [-flow * step, conductance * step, 0.0, 0.0];
-        match &weights {
-            Some(weights) => given.share(weights, [row]),
-            None => given.add(row),
-        }
+        given.share(&weights, [row]);
         flow
     };
-    let flow = sums.over((count, &mut cells), context, of_body, (0.0, |sum, one| sum + one));
+    let of_bodies = |bodies: Range<usize>, given: &mut Given| bodies.fold(0.0, |sum, body| sum + of_body(body, given));
+    let flow = sums.over((count, cells.len()), context, of_bodies, (0.0, |sum, part| sum + part));
+    cells.iter_mut().zip(sums.whole()).for_each(|(cell, row)| add(cell, row));
     heat.given += step * flow;
     (medium.sums, fluid.heat, heat.slots) = (sums, cells, slots);
     (state.heat, state.fluid) = (Some(heat), Some(fluid));

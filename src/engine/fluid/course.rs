@@ -2,7 +2,7 @@
 
 use super::porosity::LEAST;
 use crate::engine::state::FluidState;
-use crate::engine::state::fluid::{Course, EXCHANGED};
+use crate::engine::state::fluid::{Coming, Course, EXCHANGED};
 use crate::laws::motion::{InputCourse, Progress};
 use crate::scene::{Fluid, Scene};
 
@@ -27,6 +27,7 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
         mean_heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
         exchanged: vec![[0.0; 4]; rows * cells],
         mean: vec![[0.0; 4]; rows * cells],
+        coming: Coming { rows: vec![[0.0; 4]; rows * cells], ..Coming::default() },
         ..FluidState::default()
     })
 }

@@ -13,8 +13,11 @@
 //! half a step later, which makes the scheme of second order whatever the law.
 
 mod book;
+mod columns;
 mod convection;
 mod course;
+mod half_kick;
+mod particles;
 mod porosity;
 mod stream;
 mod sums;
@@ -22,13 +25,12 @@ mod sums;
 pub(crate) use book::{Kick, book};
 pub(crate) use convection::{convect, rate};
 pub(crate) use course::{advance, begin, begun, end, put};
+pub(crate) use particles::load;
 pub(crate) use porosity::renew;
 pub(crate) use stream::Stream;
 
 use crate::base::number::Vector;
-use crate::base::threads::Context;
-use crate::engine::integration::{Fields, Rows};
-use crate::engine::state::{Clumps, State};
+use crate::engine::state::Clumps;
 use crate::laws::convection::Nusselt;
 use crate::laws::drag::Factor;
 use crate::laws::region::Grid;
@@ -72,6 +74,7 @@ struct Convects {
 }
 
 /// Volume of a sphere of this diameter \[m³\].
+#[inline(always)]
 fn volume(diameter: f64) -> f64 {
     (PI / 6.0) * (diameter * diameter * diameter)
 }
@@ -122,13 +125,20 @@ impl Medium {
         self.diameters[clumps.shape[clump] as usize] * clumps.scale[clump]
     }
 
-    /// Drag over the velocity of a sphere against which the fluid moves so \[kg/s\].
-    fn drag(&self, diameter: f64, porosity: f64, slip: Vector) -> f64 {
-        let reynolds = self.reynolds(diameter, porosity, slip);
-        3.0 * PI * self.viscosity * diameter * porosity * self.law.factor(porosity, reynolds)
+    /// Drag over the velocity of a sphere with this factor of its law \[kg/s\].
+    #[inline(always)]
+    fn drag(&self, diameter: f64, porosity: f64, factor: f64) -> f64 {
+        3.0 * PI * self.viscosity * diameter * porosity * factor
     }
 
-    /// Reynolds number of that.
+    /// Torque over the angular velocity of a sphere \[kg m²/s\]; 0 where it brakes no rotation.
+    #[inline(always)]
+    fn turning(&self, diameter: f64) -> f64 {
+        if self.torque { PI * self.viscosity * (diameter * diameter * diameter) } else { 0.0 }
+    }
+
+    /// Reynolds number of a sphere against which the fluid moves so.
+    #[inline(always)]
     fn reynolds(&self, diameter: f64, porosity: f64, slip: Vector) -> f64 {
         self.density * diameter * porosity * slip.length() / self.viscosity
     }
@@ -138,31 +148,4 @@ impl Medium {
         let Some(Convects { law, conductivity, prandtl }) = &self.heat else { return 0.0 };
         PI * conductivity * diameter * law.nusselt(porosity, self.reynolds(diameter, porosity, slip), *prandtl)
     }
-}
-
-/// Adds the force of the fluid to the loads on particles, those of groups among them; clumps have it as bodies.
-pub(crate) fn load(medium: &Medium, state: &mut State, fields: &Fields, context: &Context) {
-    let State { particles, boundaries, fluid, .. } = state;
-    let Some(fluid) = fluid else { return };
-    let stream = Stream::of(medium, fluid);
-    let boundaries = boundaries.len() as u32;
-    let ids = std::mem::take(&mut particles.id);
-    let rows = Rows::of(particles);
-    context.each(rows.pieces(), |piece| {
-        rows.each(piece, |body, is_free| {
-            // Images and spheres of clumps are counted on behind the boundaries.
-            if body.owner > boundaries {
-                return;
-            }
-            let Some(here) = stream.at(Vector::from(*body.position)) else { return };
-            let motion = [Vector::from(*body.velocity), Vector::from(*body.spin)];
-            let own = Vector::from(fields.loads(body.velocity[3], ids[body.slot])) + Vector::from(*body.force);
-            let half = if is_free { 0.5 * context.step } else { 0.0 };
-            let flow = here.on(2.0 * body.position[3], motion, (body.velocity[3], own), half);
-            *body.force = (Vector::from(*body.force) + flow.force).row_with(flow.drag);
-            *body.torque = (Vector::from(*body.torque) + flow.torque).row_with(flow.turning);
-        });
-    });
-    particles.id = ids;
-    fluid.step = context.step;
 }

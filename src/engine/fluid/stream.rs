@@ -4,7 +4,9 @@ use super::{Flow, Medium, volume};
 use crate::base::number::Vector;
 use crate::engine::state::{Clumps, FluidState, Row, State};
 use crate::laws::region::{Centres, Weights};
-use std::f64::consts::PI;
+
+/// The weights of the only cell, where there is no grid.
+const ALONE: Weights = [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0), (0, 0.0), (0, 0.0), (0, 0.0), (0, 0.0)];
 
 /// A fluid as it flows now.
 #[derive(Clone, Copy)]
@@ -24,18 +26,17 @@ pub(crate) struct Stream<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct Here<'a> {
     /// What never changes.
-    medium: &'a Medium,
+    pub(super) medium: &'a Medium,
     /// Its velocity \[m/s\].
     pub(super) velocity: Vector,
     /// Part of the space that the particles leave to it.
-    porosity: f64,
+    pub(super) porosity: f64,
     /// Force of the pressure gradient on each volume \[N/m³\].
-    push: Vector,
-    /// Which cells it is of; none without a grid.
-    pub(super) weights: Option<Weights>,
+    pub(super) push: Vector,
 }
 
 /// The sum of rows by their weights.
+#[inline(always)]
 fn between(rows: &[Row], weights: &Weights) -> Row {
     let mut sum = [0.0; 4];
     for &(cell, weight) in weights {
@@ -54,15 +55,15 @@ impl<'a> Stream<'a> {
         let [x, y, z, porosity] = flow[0];
         let gradient = gradients.first().map_or(Vector::zero(), |row| Vector::from(*row));
         let (velocity, push) = (Vector::new(x, y, z), medium.buoyancy - gradient);
-        let first = Here { medium, velocity, porosity, push, weights: None };
+        let first = Here { medium, velocity, porosity, push };
         let cells = medium.grid.map(|grid| (grid.centres(), flow, gradients));
         Self { medium, first, cells, temperatures: &fluid.temperature.now }
     }
 
-    /// How it flows at a point \[m\]; none where there is no fluid.
+    /// How it flows at a point \[m\], and of which cells that is by which weights; none where there is no fluid.
     #[inline(always)]
-    pub(crate) fn at(&self, point: Vector) -> Option<Here<'a>> {
-        let Some((centres, flow, gradients)) = &self.cells else { return Some(self.first) };
+    pub(crate) fn at(&self, point: Vector) -> Option<(Here<'a>, Weights)> {
+        let Some((centres, flow, gradients)) = &self.cells else { return Some((self.first, ALONE)) };
         if !centres.holds(point) {
             return None;
         }
@@ -72,12 +73,12 @@ impl<'a> Stream<'a> {
         if !gradients.is_empty() {
             push = push - Vector::from(between(gradients, &weights));
         }
-        Some(Here { medium: self.medium, velocity: Vector::new(x, y, z), porosity, push, weights: Some(weights) })
+        Some((Here { medium: self.medium, velocity: Vector::new(x, y, z), porosity, push }, weights))
     }
 
-    /// Its temperature where it flows so \[K\].
-    pub(super) fn temperature(&self, here: &Here) -> f64 {
-        here.weights.map_or(self.temperatures[0][0], |weights| between(self.temperatures, &weights)[0])
+    /// Its temperature in cells of these weights \[K\].
+    pub(super) fn temperature(&self, weights: &Weights) -> f64 {
+        between(self.temperatures, weights)[0]
     }
 
     /// Whether it brakes rotation.
@@ -94,7 +95,7 @@ impl<'a> Stream<'a> {
     pub(crate) fn acceleration(&self, state: &State) -> f64 {
         let State { particles, clumps, .. } = state;
         let of = |place: Row, velocity: Row, drag: f64, diameter: f64| {
-            let Some(here) = self.at(place.into()) else { return 0.0 };
+            let Some((here, _)) = self.at(place.into()) else { return 0.0 };
             let drag = (here.velocity - Vector::from(velocity)) * drag;
             (drag.length() + here.push(diameter).length()) / velocity[3]
         };
@@ -126,14 +127,21 @@ impl Here<'_> {
     /// What it does to a sphere of this diameter \[m\] with this velocity \[m/s\] and angular velocity \[rad/s\], on which another force acts
     /// \[N\]; forces move its mass \[kg\] in half kicks of this length \[s\], or it is held where the length is 0.
     pub(crate) fn on(&self, diameter: f64, motion: [Vector; 2], (mass, other): (f64, Vector), half: f64) -> Flow {
-        let Self { medium, velocity, porosity, .. } = *self;
-        let (slip, push) = (velocity - motion[0], self.push(diameter));
-        let mut drag = medium.drag(diameter, porosity, slip);
-        if half > 0.0 {
-            let gained = (other + push + slip * drag) * (half / (mass + half * drag));
-            drag = medium.drag(diameter, porosity, slip - gained);
-        }
-        let turning = if medium.torque { PI * medium.viscosity * (diameter * diameter * diameter) } else { 0.0 };
+        let (medium, push) = (self.medium, self.push(diameter));
+        let slip = self.velocity - motion[0];
+        let drag_of = |slip| {
+            let factor = medium.law.factor(self.porosity, medium.reynolds(diameter, self.porosity, slip));
+            medium.drag(diameter, self.porosity, factor)
+        };
+        let drag = drag_of(slip - gain(slip, drag_of(slip), (mass, other + push), half));
+        let turning = medium.turning(diameter);
         Flow { force: slip * drag + push, drag, torque: motion[1] * -turning, turning }
     }
+}
+
+/// What a half kick of this length \[s\] gives to the velocity \[m/s\] of a mass \[kg\] on which a force acts \[N\] beside drag; the half kick of
+/// what is held has the length 0.
+#[inline(always)]
+pub(super) fn gain(slip: Vector, drag: f64, (mass, other): (f64, Vector), half: f64) -> Vector {
+    (other + slip * drag) * (half / (mass + half * drag))
 }

@@ -58,6 +58,8 @@ pub struct FluidState {
     /// The same over time: heat flow of the particles into it, mean over the last communication step \[W\], and conductance \[W/K\].
     #[serde(with = "super::plain")]
     pub mean_heat: Vec<Row>,
+    /// What the half kick that begins the next time step exchanges with particles.
+    pub coming: Coming,
     /// Work of the fluid since counting began: drag along its own velocity, and buoyancy along those of the particles \[J\].
     pub work: f64,
     /// Impulse on the bodies that forces move, of drag and pressure, since counting began \[N s\].
@@ -74,9 +76,51 @@ clone_in_place!(FluidState {
     mean,
     heat,
     mean_heat,
+    coming,
     work,
     impulse
 });
+
+/// What the half kick that begins the next time step exchanges between a fluid and particles, where that step is as long as this one.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Coming {
+    /// Length of that step \[s\]; 0 where nothing is known of it.
+    pub step: f64,
+    /// What it adds to [`FluidState::exchanged`].
+    #[serde(with = "super::plain")]
+    pub rows: Vec<Row>,
+    /// What it adds to the books.
+    pub booked: Booked,
+}
+
+clone_in_place!(Coming { step, rows, booked });
+
+/// What a fluid does in a half kick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Booked {
+    /// Its work \[J\].
+    pub work: f64,
+    /// What drag takes \[J\].
+    pub taken: f64,
+    /// Work on the bodies that forces move \[J\].
+    pub on_free: f64,
+    /// Impulse on them \[N s\].
+    pub moved: [f64; 3],
+}
+
+impl Booked {
+    /// Both together.
+    #[inline(always)]
+    pub(crate) fn plus(self, other: Self) -> Self {
+        let moved = [0, 1, 2].map(|axis| self.moved[axis] + other.moved[axis]);
+        Self {
+            work: self.work + other.work,
+            taken: self.taken + other.taken,
+            on_free: self.on_free + other.on_free,
+            moved,
+        }
+    }
+}
 
 /// How many rows a cell has of what it exchanges where a gradient of its pressure is given. Elsewhere it has one.
 pub const EXCHANGED: usize = 3;
@@ -196,19 +240,20 @@ impl FluidState {
     /// Whether it can be one.
     pub(super) fn check(&self) -> Result<(), StateFault> {
         let Self { velocity, pressure_gradient, temperature, porosity, step, .. } = self;
-        let Self { exchanged, mean, heat, mean_heat, work, impulse, .. } = self;
+        let Self { exchanged, mean, heat, mean_heat, coming, work, impulse, .. } = self;
         let count = velocity.now.len();
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
         temperature.check(temperature.now.len())?;
-        let there = [exchanged.len(), mean.len()] == [self.rows() * count; 2]
+        let there = [exchanged.len(), mean.len(), coming.rows.len()] == [self.rows() * count; 3]
             && [heat.len(), mean_heat.len()] == [temperature.now.len(); 2];
         demand(there, "fluid", exchanged.len(), "rows for each cell of its grid")?;
-        let rows = [exchanged, mean, heat, mean_heat];
+        let rows = [exchanged, mean, heat, mean_heat, &coming.rows];
         rows.into_iter().try_for_each(|rows| all_finite(rows.as_flattened(), "fluid"))?;
         all_finite(porosity, "fluid")?;
-        all_finite(&[*step, *work], "fluid")?;
-        all_finite(impulse, "fluid")?;
+        let Booked { work: now, taken, on_free, moved } = coming.booked;
+        all_finite(&[*step, *work, coming.step, now, taken, on_free], "fluid")?;
+        all_finite(&[*impulse, moved].concat(), "fluid")?;
         let fills = velocity.now.iter().all(|row| row[3] > 0.0 && row[3] <= 1.0);
         demand(fills, "fluid", 0, "a porosity above 0 and up to 1")?;
         demand(*step >= 0.0, "fluid", 0, "a step of 0 or above")

@@ -1,6 +1,7 @@
 //! Spheres at any porosity.
 
 use super::Convection;
+use crate::base::powers::{exp, ln};
 use crate::laws::contact::NoKeys;
 
 /// Gunn's law.
@@ -26,7 +27,8 @@ impl Convection for Gunn {
 
     fn nusselt(&self, porosity: f64, reynolds: f64, prandtl: f64) -> f64 {
         let root = libm::cbrt(prandtl);
-        let (low, high) = (libm::pow(reynolds, 0.2), libm::pow(reynolds, 0.7));
+        let logarithm = ln(reynolds);
+        let (low, high) = (exp(0.2 * logarithm), exp(0.7 * logarithm));
         let of_layer = 7.0 + porosity * (5.0 * porosity - 10.0);
         let of_wake = 1.33 + porosity * (1.2 * porosity - 2.4);
         of_layer * (1.0 + 0.7 * low * root) + of_wake * high * root

@@ -1,7 +1,9 @@
 //! Spheres at any porosity, by flow through random arrays, up to higher Reynolds numbers.
 
 use super::Drag;
+use crate::base::powers::{exp, ln};
 use crate::laws::contact::NoKeys;
+use std::f64::consts::LN_10;
 
 /// Beetstra, van der Hoef and Kuipers' law, a fit of lattice-Boltzmann simulations of random arrays of spheres.
 ///
@@ -24,13 +26,15 @@ impl Drag for Beetstra {
         Self
     }
 
+    #[inline(always)]
     fn factor(&self, porosity: f64, reynolds: f64) -> f64 {
         let solid = 1.0 - porosity;
         let square = porosity * porosity;
         let creeping = 10.0 * solid / square + square * (1.0 + 1.5 * solid.sqrt());
         // Both sides of the fraction times Re^((1 + 4 φ)/2): finite at Re = 0.
-        let power = libm::pow(reynolds, 0.5 + 2.0 * solid);
-        let above = (1.0 / porosity + 3.0 * porosity * solid) * reynolds + 8.4 * libm::pow(reynolds, 0.657);
-        creeping + 0.413 / (24.0 * square) * above * power / (power + libm::pow(10.0, 3.0 * solid))
+        let logarithm = ln(reynolds);
+        let power = exp((0.5 + 2.0 * solid) * logarithm);
+        let above = (1.0 / porosity + 3.0 * porosity * solid) * reynolds + 8.4 * exp(0.657 * logarithm);
+        creeping + 0.413 / (24.0 * square) * above * power / (power + exp(3.0 * LN_10 * solid))
     }
 }

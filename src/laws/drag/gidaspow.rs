@@ -2,6 +2,7 @@
 
 use super::Drag;
 use super::schiller_naumann::SchillerNaumann;
+use crate::base::powers::power;
 use crate::laws::contact::NoKeys;
 
 /// Below this porosity the law is Ergun's.
@@ -29,11 +30,10 @@ impl Drag for Gidaspow {
         Self
     }
 
+    #[inline(always)]
     fn factor(&self, porosity: f64, reynolds: f64) -> f64 {
-        if porosity < DENSE {
-            (150.0 * (1.0 - porosity) + 1.75 * reynolds) / (18.0 * porosity * porosity)
-        } else {
-            SchillerNaumann::of_sphere(reynolds) * libm::pow(porosity, -2.65)
-        }
+        let dense = (150.0 * (1.0 - porosity) + 1.75 * reynolds) / (18.0 * porosity * porosity);
+        let dilute = SchillerNaumann::of_sphere(reynolds) * power(porosity, -2.65);
+        if porosity < DENSE { dense } else { dilute }
     }
 }

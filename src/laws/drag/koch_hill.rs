@@ -1,6 +1,7 @@
 //! Spheres at any porosity, by flow through random arrays.
 
 use super::Drag;
+use crate::base::powers::ln;
 use crate::laws::contact::NoKeys;
 
 /// Solid fraction from which the Stokes limit is that of a dense bed.
@@ -28,17 +29,14 @@ impl Drag for KochHill {
         Self
     }
 
+    #[inline(always)]
     fn factor(&self, porosity: f64, reynolds: f64) -> f64 {
         let solid = 1.0 - porosity;
         let cube = porosity * porosity * porosity;
-        let creeping = if solid < DENSE {
-            // φ ln φ vanishes with φ.
-            let logarithm = if solid > 0.0 { libm::log(solid) } else { 0.0 };
-            let above = 1.0 + 3.0 * (0.5 * solid).sqrt() + 135.0 / 64.0 * solid * logarithm + 16.14 * solid;
-            above / (1.0 + solid * (0.681 + solid * (-8.48 + solid * 8.16)))
-        } else {
-            10.0 * solid / cube
-        };
+        // φ ln φ vanishes with φ, as this logarithm is finite.
+        let above = 1.0 + 3.0 * (0.5 * solid).sqrt() + 135.0 / 64.0 * solid * ln(solid) + 16.14 * solid;
+        let dilute = above / (1.0 + solid * (0.681 + solid * (-8.48 + solid * 8.16)));
+        let creeping = if solid < DENSE { dilute } else { 10.0 * solid / cube };
         let inertial = 0.0673 + 0.212 * solid + 0.0232 / (cube * porosity * porosity);
         porosity * (creeping + 0.5 * inertial * reynolds)
     }

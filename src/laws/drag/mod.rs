@@ -43,13 +43,15 @@ pub trait Drag: std::fmt::Debug + Send + Sync + 'static {
     const OF_ONE_SPHERE: bool;
     /// The law that the keys mean.
     fn of(keys: &Self::Keys) -> Self;
-    /// Drag over 3π µ d ε w, at a porosity above 0 and up to 1 and a Reynolds number of 0 or above. It is finite and above 0.
+    /// Drag over 3π µ d ε w, at a porosity above 0 and up to 1 and a Reynolds number of 0 or above. It is finite and above 0. The program asks
+    /// for many at once: one that is `#[inline]`, chooses values and not ways, and takes its powers from [`powers`](crate::base::powers) is fast.
     fn factor(&self, porosity: f64, reynolds: f64) -> f64;
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::lanes::Width;
     use crate::laws::contact::NoKeys;
     use std::f64::consts::PI;
 
@@ -113,6 +115,21 @@ mod tests {
         let drag = 3.0 * PI * mu * d * superficial * factor::<gidaspow::Gidaspow>(0.6, rho * d * superficial / mu);
         let gradient = 0.6 / (PI / 6.0 * d * d * d) * drag / porosity;
         assert!((gradient / 10078.125 - 1.0).abs() < 1e-12, "{gradient} Pa/m");
+    }
+
+    #[test]
+    fn many_spheres_at_once_have_the_bits_of_each_alone_in_every_width() {
+        let porosities: Vec<f64> = (1..=101).map(|step| 0.2 + 0.8 * f64::from(step % 37) / 36.0).collect();
+        let numbers: Vec<f64> = (0..101).map(|step| if step == 0 { 0.0 } else { 1e-6 * 1.3_f64.powi(step) }).collect();
+        for row in STANDARD {
+            let law = (row.law)(crate::laws::kept::keep(NoKeys {}));
+            for width in Width::ALL.into_iter().filter(|width| width.offered()) {
+                let mut found = numbers.clone();
+                law.factors(&porosities, &mut found, width);
+                let alone = porosities.iter().zip(&numbers).map(|(porosity, number)| law.factor(*porosity, *number));
+                assert!(found.iter().copied().eq(alone), "{} in {width:?}", row.name);
+            }
+        }
     }
 
     #[test]

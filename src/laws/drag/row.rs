@@ -1,6 +1,7 @@
 //! What the program knows of a drag law.
 
 use super::Drag;
+use crate::base::lanes::{self, Kernel, Lane, Width};
 use crate::laws::kept::{ModelKeys, keep, own, read};
 use crate::laws::law_row::{LawModel, LawRow};
 use std::fmt;
@@ -10,11 +11,37 @@ use std::sync::Arc;
 pub trait Factor: fmt::Debug + Send + Sync {
     /// [`Drag::factor`]
     fn factor(&self, porosity: f64, reynolds: f64) -> f64;
+    /// [`Drag::factor`] of each of several spheres, in place of its Reynolds number. It is one loop, which the compiler makes of vector
+    /// instructions where the law branches nowhere.
+    fn factors(&self, porosities: &[f64], numbers: &mut [f64], width: Width);
+}
+
+/// Several spheres.
+struct Several<'a, D> {
+    /// The law.
+    law: &'a D,
+    /// Porosity at each.
+    porosities: &'a [f64],
+    /// Reynolds number of each, which the factor replaces.
+    numbers: &'a mut [f64],
+}
+
+impl<D: Drag> Kernel for Several<'_, D> {
+    #[inline(always)]
+    fn run<N: Lane>(self) {
+        for (number, porosity) in self.numbers.iter_mut().zip(self.porosities) {
+            *number = Drag::factor(self.law, *porosity, *number);
+        }
+    }
 }
 
 impl<D: Drag> Factor for D {
     fn factor(&self, porosity: f64, reynolds: f64) -> f64 {
         Drag::factor(self, porosity, reynolds)
+    }
+
+    fn factors(&self, porosities: &[f64], numbers: &mut [f64], width: Width) {
+        lanes::run(width, Several { law: self, porosities, numbers });
     }
 }
 

@@ -1,6 +1,7 @@
 //! One sphere at any Reynolds number.
 
 use super::Drag;
+use crate::base::powers::power;
 use crate::laws::contact::NoKeys;
 
 /// Schiller and Naumann's fit of the drag of one sphere.
@@ -17,8 +18,10 @@ pub struct SchillerNaumann;
 
 impl SchillerNaumann {
     /// The drag of one sphere over that of Stokes.
+    #[inline(always)]
     pub(super) fn of_sphere(reynolds: f64) -> f64 {
-        if reynolds < 1000.0 { 1.0 + 0.15 * libm::pow(reynolds, 0.687) } else { 0.44 * reynolds / 24.0 }
+        let moderate = 1.0 + 0.15 * power(reynolds, 0.687);
+        if reynolds < 1000.0 { moderate } else { 0.44 * reynolds / 24.0 }
     }
 }
 
@@ -31,6 +34,7 @@ impl Drag for SchillerNaumann {
         Self
     }
 
+    #[inline(always)]
     fn factor(&self, _porosity: f64, reynolds: f64) -> f64 {
         Self::of_sphere(reynolds)
     }

@@ -24,6 +24,7 @@ impl Drag for Stokes {
         Self
     }
 
+    #[inline(always)]
     fn factor(&self, _porosity: f64, _reynolds: f64) -> f64 {
         1.0
     }

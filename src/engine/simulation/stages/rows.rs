@@ -245,7 +245,7 @@ const FORCES: &[Stage] = &[
         scenes: "fluid",
         is_needed: |it| it.medium.is_some(),
         reads: &[Motions, Fluid],
-        writes: &[Loads, Fluid],
+        writes: &[Loads, Fluid, Books],
         run: Simulation::act_by_fluid,
     },
     Stage {
@@ -310,8 +310,8 @@ const KICK: &[Stage] = &[
     },
     Stage {
         name: "fluid in the second half kick",
-        scenes: "fluid",
-        is_needed: |it| it.medium.is_some(),
+        scenes: "clumps in a fluid, damping on the way to rest",
+        is_needed: |it| it.medium.is_some() && (it.shapes.is_some() || it.fields.damps()),
         reads: &[Motions, Loads, Clumps, Fluid],
         writes: &[Fluid, Books],
         run: Simulation::book_fluid_second,
