@@ -63,7 +63,7 @@ losses = true
 pub(crate) const MANY: &str = r#"
 [particles.many]
 material = "glass"
-lattice = { kind = "simple_cubic", radius = 0.002, spacing = 0.006, counts = [13, 13, 13], origin = [0.1, 0.0, 0.0] }
+lattice = { kind = "simple_cubic", radius = 0.002, spacing = 0.006, counts = [13, 13, 12], origin = [0.1, 0.0, 0.0] }
 "#;
 
 /// What is known of particles that come and go.

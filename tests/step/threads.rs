@@ -32,7 +32,7 @@ restitution = 0.6
 [contact.all.normal.hertz]
 [particles.row]
 material = "glass"
-lattice = { kind = "simple_cubic", radius = 0.001, spacing = 0.0019, counts = [100, 4, 4], origin = [0.0, 0.0, 0.0] }
+lattice = { kind = "simple_cubic", radius = 0.001, spacing = 0.00196, counts = [100, 4, 4], origin = [0.0, 0.0, 0.0] }
 [region.aside]
 box = [[0.0, 0.1, 0.0], [0.1, 0.2, 0.1]]
 [insertion.feed]

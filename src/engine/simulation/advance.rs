@@ -106,7 +106,8 @@ impl Simulation {
         (interval, most): (f64, u64),
         threads: Option<&Threads>,
     ) -> Result<(f64, Result<(), RunError>), RunError> {
-        let standing = Context { threads, ..self.standing() };
+        let all = Context { threads, ..self.standing() };
+        let standing = self.worth_while(&all);
         let mut underway = match self.state.underway.take() {
             Some(underway) => underway,
             None => {
@@ -121,7 +122,7 @@ impl Simulation {
                 }
             }
         };
-        let result = self.make_steps(&mut underway, most, &standing);
+        let result = self.make_steps(&mut underway, most, &all);
         if result.is_ok() && underway.done < underway.count {
             self.state.underway = Some(underway);
             return Ok((underway.elapsed(), Ok(())));
@@ -208,9 +209,10 @@ impl Simulation {
 
     /// Makes the time steps that are left, but no more than `most`; where the stable one becomes shorter on the way, or what is in contact
     /// asks for others, the rest is divided again.
-    fn make_steps(&mut self, underway: &mut Underway, most: u64, standing: &Context) -> Result<(), RunError> {
+    fn make_steps(&mut self, underway: &mut Underway, most: u64, all: &Context) -> Result<(), RunError> {
         let mut left = most;
         while underway.done < underway.count && left > 0 {
+            let standing = &self.worth_while(all);
             let step = underway.step;
             if self.outruns(step) && self.shorten_on_the_way(true) {
                 self.divide_rest(underway, self.state.clock.step)?;
@@ -227,7 +229,7 @@ impl Simulation {
             left -= 1;
             underway.done += 1;
             let Underway { done, count, passed, length, .. } = *underway;
-            let context = Context { step, threads: self.worth_while(standing.threads), ..*standing };
+            let context = Context { step, ..*standing };
             self.count_divided();
             self.step(Progress { done, count, step, time: 0.0, passed, length }, &context)?;
             if self.boundaries_change_speed() {

@@ -157,9 +157,9 @@ impl Simulation {
         done
     }
 
-    /// These helpers, if there are enough particles now: where some come and go their number changes.
-    fn worth_while<'a>(&self, threads: Option<&'a Threads>) -> Option<&'a Threads> {
-        threads.filter(|_| threads::are_many(self.state.particles.len()))
+    /// The same with helpers only if there are enough particles now: where some come and go their number changes.
+    fn worth_while<'a>(&self, all: &Context<'a>) -> Context<'a> {
+        Context { threads: all.threads.filter(|_| threads::are_many(self.state.particles.len())), ..*all }
     }
 
     /// Uses this lane width from now on. Every width gives the same bits.
