@@ -21,8 +21,8 @@ const BETWEEN_LOOKS: f64 = 0.02;
 /// Time steps for which the looks of a trial count, at least: where the first ones follow each other, the next come much later.
 pub(crate) const BETWEEN_LOOKS_AT_STEPS: f64 = 256.0;
 
-/// Wall time over the patience until which a time step is waited for in which nobody looks.
-const MORE_PATIENCE: u32 = 3;
+/// Parts of a trial in each of which somebody looks, until it ends all the same.
+const MOST_PARTS: u32 = 6;
 
 /// Time steps of a communication step of a scene that says no end.
 const WITHOUT_END: f64 = 1000.0;
@@ -126,11 +126,8 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
     let (mut late_time, mut late_particles) = (0.0, 0.0);
     let mut time = schedule.map_or(0.0, |(_, begins)| begins);
     let (mut at_once, mut interval) = (1.0, 0.0);
-    let waits = |[plain, looking]: [Made; 2]| {
-        let more = if plain.steps == 0 { MORE_PATIENCE * patience } else { patience };
-        plain.steps + looking.steps == 0 || begun.elapsed() < more
-    };
-    while waits(made_in) {
+    let mut parts = 0;
+    while begun.elapsed() < patience || (made_in[0].steps == 0 && parts < MOST_PARTS) {
         // A communication step is as long as the run's: what its beginning costs counts as often as there.
         if simulation.state().underway.is_none() {
             interval = match schedule.map(|(schedule, _)| schedule.after(time)) {
@@ -157,6 +154,7 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
         let (steps, after) = so_far(simulation);
         let (made, looks, took) = (steps - before, after - looks, looked.elapsed().as_secs_f64());
         if trial.steps > 0 {
+            parts += 1;
             let all = &mut made_in[usize::from(looks > 0)];
             *all = Made { steps: all.steps + made, time: all.time + took, looks: all.looks + looks };
         }

@@ -5,7 +5,6 @@
 
 use crate::cantilever::{self, DENSITY, FINITE_ROTATION, RADIUS, STIFFNESS};
 use crate::runs::{Sampled, apart};
-use crate::stage::Stage;
 use crate::{Chart, Measures};
 use cograin_chart::picture::{Panel, Picture, logarithmic};
 use cograin_chart::table::Table;
