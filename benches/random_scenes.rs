@@ -6,7 +6,7 @@
 #![allow(clippy::print_stdout, reason = "a program that prints figures")]
 
 #[path = "../tests/support/mod.rs"]
-#[allow(dead_code, reason = "the tests use more of it")]
+#[allow(dead_code, unused_imports, reason = "the tests use more of it")]
 mod support;
 
 #[path = "../tests/step/random_scenes/compare.rs"]

@@ -71,11 +71,12 @@ pub fn power(base: f64, exponent: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::SQRT_2;
 
     /// Numbers of all sizes.
     fn samples() -> impl Iterator<Item = f64> {
         (-1020..=1020).flat_map(|exponent| {
-            [1.0, 1.000_001, 1.3, 1.414_213_562, 1.414_213_563, 1.7, 1.999_999]
+            [1.0, 1.000_001, 1.3, SQRT_2.next_down(), SQRT_2.next_up(), 1.7, 1.999_999]
                 .map(|digits| digits * 2.0_f64.powi(exponent))
         })
     }
