@@ -117,9 +117,10 @@ def report(table, ground):
     print(f"ground {1e3 * ground.surface:.2f} mm high, wall {1e3 * depth:.2f} mm deep", end=", ")
     print(f"porosity of the prism {ground.inside:.4f}: critical gradient {expected:.3f}")
     early = (table["head"] > 0.3 * depth) & (table["head"] < depth)
-    ratio = (table["gradient"] * depth / table["head"])[early]
-    print(f"head below the prism over all: {ratio.mean():.3f} ± {ratio.std():.3f} while nothing moves", end=", ")
-    print(f"{even(ground.x[-1] + 0.5 * ground.cell, ground.surface):.3f} in even ground")
+    if early.any():
+        ratio = (table["gradient"] * depth / table["head"])[early]
+        print(f"head below the prism over all: {ratio.mean():.3f} ± {ratio.std():.3f} while nothing moves", end=", ")
+        print(f"{even(ground.x[-1] + 0.5 * ground.cell, ground.surface):.3f} in even ground")
     for rise in LIFTED:
         if table["rise"].max() > rise:
             place = int(np.argmax(table["rise"] > rise))
@@ -134,9 +135,6 @@ def main():
     parser.add_argument("--end", type=float, default=0.152, help="[s]")
     parser.add_argument("--interval", type=float, default=4e-3, help="communication step [s]")
     parser.add_argument("--rate", type=float, default=0.3, help="growth of the head [m/s]")
-    parser.add_argument(
-        "--unsettled", action="store_true", help="begins with the beads as they were packed, for a look"
-    )
     parser.add_argument("--no-picture", action="store_true")
     options = parser.parse_args()
     options.output.mkdir(parents=True, exist_ok=True)

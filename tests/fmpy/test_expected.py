@@ -103,7 +103,7 @@ def test_the_heated_plate_begins_as_expected_and_no_heat_is_lost(request, tmp_pa
     [
         ("fluidised_column", ["--end", "0.02"]),
         ("settling", ["--counts", "200", "490"]),
-        ("seepage", ["--end", "0.012"]),
+        ("seepage", ["--end", "0.008"]),
     ],
 )
 def test_grains_in_a_fluid_do_as_expected(request, name, options, tmp_path):
