@@ -331,7 +331,10 @@ fn the_page_says_bounds_in_words_and_components_in_one_row() {
     assert!(row("run.safety").contains("; at least 0, below 1</td>"), "{}", row("run.safety"));
     assert!(row("run.accuracy").contains("; above 0, below 1</td>"), "{}", row("run.accuracy"));
     let modulus = row("material.glass.youngs_modulus");
-    assert!(modulus.contains("<td>5e7</td><td>Young&apos;s modulus") && modulus.contains("; above 0</td>"), "{modulus}");
+    assert!(
+        modulus.contains("<td>5e7</td><td>Young&apos;s modulus") && modulus.contains("; above 0</td>"),
+        "{modulus}"
+    );
     assert!(row("material.glass.poissons_ratio").contains("; at least 0, at most 0.5</td>"));
     assert!(row("pair.glass.glass.restitution").contains("; above 0, at most 1; tunable</td>"));
     assert!(page.contains("<a href=\"fmi-ls-ref.txt\">") && unit.contains_key("documentation/fmi-ls-ref.txt"));
