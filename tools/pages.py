@@ -23,8 +23,9 @@ GATHERED = [
     "CITATION.cff",
     "docs/**",
     "python/README.md",
-    "examples/*.py",
-    "examples/*.ipynb",
+    "examples/*.*",
+    "examples/stages/*",
+    "examples/heap_of_discs/*",
     "models/*/*.md",
     "models/*/*.png",
 ]
