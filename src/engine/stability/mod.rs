@@ -18,6 +18,7 @@ mod network;
 mod plain;
 mod shares;
 mod triangle;
+mod tridiagonal;
 mod vibration;
 
 use crate::base::threads::{CHUNK, Context};
