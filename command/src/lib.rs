@@ -12,6 +12,7 @@ use clap::{Args, Parser, Subcommand};
 use cograin::bond::keys::FormulationChoice;
 use cograin::export::{Libraries, PackageError, export, find_libraries};
 use cograin::interface::Standard;
+use cograin::lanes::Width;
 use cograin::report;
 use cograin::results::{Checkpoint, EarlierFile, Failure, OutputError, claim_file, refuse_to_replace};
 use cograin::run::{EarlierResults, RunOrder, SettleOrder, SettleProgress, SettleStart, Start};
@@ -89,6 +90,9 @@ struct ComputeArguments {
     /// Number of threads, instead of that in the scene
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    /// Compute at most so many numbers at once, to compare processors: 2, 4 (AVX2) or 8 (AVX-512); the results are the same
+    #[arg(long, value_name = "N", value_parser = width)]
+    lanes: Option<Width>,
 }
 
 /// `cograin check`
@@ -369,7 +373,18 @@ fn read_to_run(
         Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
         None => scene,
     };
-    Ok((Arc::new(scene), source))
+    Ok((Arc::new(scene.with_width(arguments.lanes)), source))
+}
+
+/// A lane width that this processor offers.
+fn width(text: &str) -> Result<Width, String> {
+    let width = match text {
+        "2" => Width::Least,
+        "4" => Width::Four,
+        "8" => Width::Eight,
+        _ => return Err("expected 2, 4 or 8".to_owned()),
+    };
+    width.offered().then_some(width).ok_or_else(|| "this processor does not offer so many".to_owned())
 }
 
 /// `cograin check`

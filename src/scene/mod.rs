@@ -63,6 +63,7 @@ pub use region::Region;
 pub use sizes::Sizes;
 pub use source::Source;
 
+use crate::base::lanes::Width;
 use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 use crate::laws::contact::{self, HeatModel, LawChoice, Material, Properties, Scheme};
 
@@ -182,6 +183,8 @@ pub struct Run {
     pub strict_step: bool,
     /// Threads; `None`: as many as the machine offers.
     pub threads: Option<usize>,
+    /// Lane width; `None`: the widest that the processor offers.
+    pub width: Option<Width>,
     /// Seed of everything random.
     pub seed: u64,
     /// Distance beyond touch up to which neighbours are searched \[m\]; `None`: chosen from motion and list length.
@@ -210,6 +213,7 @@ impl Default for Run {
             allow_unstable: false,
             strict_step: false,
             threads: None,
+            width: None,
             seed: 1,
             skin: None,
             settle_tolerance: 1e-4,
