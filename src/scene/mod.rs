@@ -311,6 +311,12 @@ pub struct Particle {
 }
 
 impl Particle {
+    /// How far from the origin numbers still say what a particle of this radius touches \[m\]: their spacing is a millionth
+    /// of the radius there.
+    pub(crate) fn farthest(radius: f64) -> f64 {
+        1e-6 * radius / f64::EPSILON
+    }
+
     /// Mass \[kg\].
     pub fn mass(&self) -> f64 {
         self.shape.volume(self.radius) * self.density
