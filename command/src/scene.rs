@@ -3,8 +3,8 @@
 use super::Ending;
 use super::progress::Progress;
 use clap::Args;
-use cograin::results::{Checkpoint, EarlierFile};
 use cograin::lanes::Width;
+use cograin::results::{Checkpoint, EarlierFile};
 use cograin::scene::{Models, PackingProgress, Packings, Scene, Setting, Source};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
