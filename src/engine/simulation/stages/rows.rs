@@ -29,6 +29,14 @@ const MOTION: &[Stage] = &[
         run: Simulation::book_fluid_first,
     },
     Stage {
+        name: "acceleration of the fluid",
+        scenes: "added mass in a fluid whose velocity changes",
+        is_needed: Simulation::is_fluid_accelerated,
+        reads: &[Motions, Loads, Clumps, Fluid],
+        writes: &[Motions, Loads, Boundaries, Clumps, Fluid, Books],
+        run: Simulation::accelerate_by_fluid,
+    },
+    Stage {
         name: "first half kick and drift",
         scenes: "all",
         is_needed: |_| true,
