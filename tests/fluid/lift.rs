@@ -70,7 +70,8 @@ fn lift_turns_the_slip_and_leaves_its_length_whatever_the_step() {
                 let angle = (a * d - b * c).atan2(a * c + b * d);
                 assert_near(angle.abs(), turn, 1e-6);
             }
-            let energy = density * 4.0 / 3.0 * PI * 1e-9 * FLOW * FLOW;
+            // Of rotation, whose rounding is in the balance: the slip has a hundred-thousandth of it.
+            let energy = 0.2 * density * 4.0 / 3.0 * PI * 1e-15 * 40.0 * 40.0;
             assert!(
                 simulation.energy_residual().unwrap().abs() < 1e-13 * energy,
                 "{:?} J",
