@@ -150,9 +150,9 @@ impl<const ROWS: usize> Kernel for Part<'_, '_, '_, ROWS> {
             }
             if work.books {
                 if beside {
-                    columns.find_books::<true>(work)
+                    columns.find_books::<true>(work);
                 } else {
-                    columns.find_books::<false>(work)
+                    columns.find_books::<false>(work);
                 }
                 columns.hand_out::<ROWS>(given, found);
             }
