@@ -35,6 +35,7 @@ ROOMS = {
     "bond/damping": ("Damping of bonds", "[bond.<name>.damping.{}]"),
     "bond/formulation": ("Formulations of bonds", 'formulation = "{}"'),
     "drag": ("Drag of fluids", "[fluid.<name>.drag.{}]"),
+    "lift": ("Lift in fluids", "[fluid.<name>.lift.{}]"),
     "contact/cohesion": ("Cohesion", "[contact.<name>.cohesion.{}]"),
     "contact/heat": ("Heat", "[contact.<name>.heat.{}]"),
     "contact/normal": ("Normal force", "[contact.<name>.normal.{}]"),

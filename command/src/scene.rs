@@ -3,6 +3,7 @@
 use super::Ending;
 use super::progress::Progress;
 use clap::Args;
+use cograin::lanes::Width;
 use cograin::results::{Checkpoint, EarlierFile};
 use cograin::scene::{Models, PackingProgress, Packings, Scene, Setting, Source};
 use std::num::NonZeroUsize;
@@ -28,6 +29,9 @@ pub(super) struct ComputeArguments {
     /// Number of threads, instead of that in the scene
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) threads: Option<u16>,
+    /// Compute at most so many numbers at once, to compare processors: 2, 4 (AVX2) or 8 (AVX-512); the results are the same
+    #[arg(long, value_name = "N", value_parser = width)]
+    pub(super) lanes: Option<Width>,
 }
 
 /// Reads a scene, and shows how far its random packings are.
@@ -64,7 +68,18 @@ pub(super) fn read_to_run(
         Some(threads) => scene.with_threads(NonZeroUsize::new(threads.into())),
         None => scene,
     };
-    Ok((Arc::new(scene), source))
+    Ok((Arc::new(scene.with_width(arguments.lanes)), source))
+}
+
+/// A lane width that this processor offers.
+fn width(text: &str) -> Result<Width, String> {
+    let width = match text {
+        "2" => Width::Least,
+        "4" => Width::Four,
+        "8" => Width::Eight,
+        _ => return Err("expected 2, 4 or 8".to_owned()),
+    };
+    width.offered().then_some(width).ok_or_else(|| "this processor does not offer so many".to_owned())
 }
 
 /// Files that a command reads: the scene, those that it names, and others.

@@ -1,7 +1,7 @@
 //! On what nothing reads: properties, materials, laws.
 
 use super::pairs;
-use crate::laws::contact::{Material, MaterialPair, Properties};
+use crate::laws::contact::{Material, MaterialPair, Properties, Thermal};
 use crate::scene::{ContactLaw, Scene};
 
 /// On properties of pairs of materials that nothing reads.
@@ -13,7 +13,7 @@ pub(super) fn unread(scene: &Scene) -> Vec<String> {
         let laws: Vec<_> = scene.contacts.iter().filter(|law| law.between[a * count + b]).collect();
         let with = |law: &ContactLaw, properties: &Properties| {
             let pair = MaterialPair { a: &scene.materials[a], b: &scene.materials[b], properties };
-            law.choice.coefficients(&pair).ok()
+            (law.choice.coefficients(&pair).ok(), law.heat_between(&pair))
         };
         let is_read = |variants: &[Properties]| {
             laws.iter().any(|law| variants.iter().any(|other| with(law, other) != with(law, properties)))
@@ -49,6 +49,13 @@ pub(super) fn idle(scene: &Scene) -> Vec<String> {
             remarks.push(format!("[material.{}]: nothing is made of it", material.name));
             continue;
         }
+        let own = material.thermal;
+        if own.specific_heat.is_some() && !scene.has_heat() {
+            remarks.push(format!(
+                "[material.{}] specific_heat: nothing reads it; no heat flows without [contact.<law>.heat.<model>] or another table of heat",
+                material.name
+            ));
+        }
         let elastic = [
             (
                 "youngs_modulus",
@@ -65,7 +72,12 @@ pub(super) fn idle(scene: &Scene) -> Vec<String> {
             let without = material.properties.clone().without(property);
             (property.name, true, Material { properties: without, ..material.clone() })
         });
-        let optional: Vec<_> = elastic.into_iter().chain(declared).collect();
+        let thermal = [
+            ("conductivity", own.conductivity.is_some(), Thermal { conductivity: None, ..own }),
+            ("real_youngs_modulus", own.real_youngs_modulus.is_some(), Thermal { real_youngs_modulus: None, ..own }),
+        ];
+        let thermal = thermal.map(|(key, given, thermal)| (key, given, Material { thermal, ..material.clone() }));
+        let optional: Vec<_> = elastic.into_iter().chain(declared).chain(thermal).collect();
         let is_read = |other: &Material| {
             (0..count).any(|partner| {
                 let entry = index * count + partner;
@@ -160,6 +172,31 @@ mod tests {
             ]
         );
         assert!(unread(&format!("material = \"g\"\n{clumps}{}", list(""))).is_empty());
+    }
+
+    #[test]
+    fn what_heat_reads_is_not_remarked_and_what_it_does_not_read_is() {
+        let told = |heat: &str, pair: &str| {
+            let text = format!(
+                "[material.g]\ndensity = 2500.0\nyoungs_modulus = 1e7\npoissons_ratio = 0.25\nspecific_heat = 800.0\nconductivity = 1.0\n\
+                 real_youngs_modulus = 1e10\n[pair.g.g]\nrestitution = 0.5\n{pair}\n[contact.c.normal.hertz]\n{heat}\n[particles.a]\n\
+                 material = \"g\"\ntemperature = 300.0\nlist = [{{ position = [0.0, 0.0, 0.02], radius = 0.01 }}]\n"
+            );
+            let source = Source { name: "scene.toml".into(), text, files: Default::default() };
+            let scene = Scene::from_source(&source).unwrap_or_else(|errors| panic!("{errors}"));
+            [unread(&scene), idle(&scene)].concat()
+        };
+        let transfer = "[contact.c.heat.transfer]";
+        assert!(told("[contact.c.heat.constriction]", "").is_empty());
+        assert_eq!(
+            told(transfer, "heat_transfer_coefficient = 1e3"),
+            ["[material.g] conductivity: nothing reads it; no contact law takes it"]
+        );
+        let both = "conductivity = 2.0\nheat_transfer_coefficient = 1e3";
+        assert!(told(transfer, both)[0].starts_with("[pair.g.g] conductivity: nothing reads it"));
+        let told_of_none = told("", "");
+        assert!(told_of_none[0].starts_with("[material.g] specific_heat: nothing reads it; no heat flows"));
+        assert!(told_of_none[1].starts_with("[material.g] conductivity, real_youngs_modulus: nothing reads it"));
     }
 
     #[test]

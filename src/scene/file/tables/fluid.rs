@@ -27,6 +27,8 @@ keys! {
         pub(in crate::scene::file) pressure: Option<Pressure> = "ρ g, no input",
         /// Part of space that the particles leave to it.
         pub(in crate::scene::file) porosity: Option<Porosity> = "1; laws of beds need it, or a grid",
+        /// Added mass of a sphere over the mass of the fluid in its volume: 0.5 for one sphere.
+        pub(in crate::scene::file) added_mass: Option<Positive> = "none",
         /// Whether it brakes rotation.
         #[serde(default)]
         pub(in crate::scene::file) torque: bool = "`false`",
@@ -37,13 +39,12 @@ keys! {
         /// Specific heat \[J/(kg K)\].
         pub(in crate::scene::file) specific_heat: Option<Positive> = "required by convection",
     } beside {
-        /// Answered: not modelled.
-        pub(in crate::scene::file) lift: Option<IgnoredAny>,
-        /// Answered: not modelled.
-        pub(in crate::scene::file) added_mass: Option<IgnoredAny>,
         /// Read on its own.
         #[serde(rename = "drag")]
         _drag: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "lift")]
+        _lift: Option<IgnoredAny>,
         /// Read on its own.
         #[serde(rename = "heat")]
         _heat: Option<IgnoredAny>,
