@@ -8,19 +8,19 @@ use crate::engine::simulation::Simulation;
 /// Particles whose centre is in a region or a cell.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Count {
-    /// All, a clump as one.
+    /// All grains.
     pub all: u64,
     /// Those of each set of the scene; who came later is of none.
     pub of_set: Vec<u64>,
 }
 
-/// The particles whose centre is in each cell of a grid of the scene, clumps by their mass centre.
+/// The grains whose centre is in each cell of a grid of the scene.
 pub fn counts(simulation: &Simulation, grid: usize) -> Vec<Count> {
     let (scene, state) = (simulation.scene(), simulation.state());
     counted(&Look::at_grid(&scene.grids[grid].shape, scene, state), simulation)
 }
 
-/// The particles whose centre is in each region of the scene, clumps by their mass centre.
+/// The grains whose centre is in each region of the scene.
 pub fn counts_of_regions(simulation: &Simulation) -> Vec<Count> {
     looks_at_regions(simulation).iter().flat_map(|look| counted(look, simulation)).collect()
 }

@@ -1,6 +1,6 @@
 //! Which bodies bonds hold together, and where these stand in a cluster.
 //!
-//! Bodies are numbered as the network of the stable step does: particles by slot, behind them boundaries, then clumps.
+//! Bodies are numbered as the network of the stable step does: particles by slot, behind them bodies of several parts.
 
 use crate::base::number::Vector;
 use crate::engine::state::State;
@@ -117,7 +117,7 @@ impl Clusters {
     }
 }
 
-/// The body that moves a particle (slot): itself, or behind all particles its boundary or clump.
+/// The body that moves a particle (slot): itself, or behind all particles the body of several parts.
 #[inline]
 pub(crate) fn mover(state: &State, slot: u32) -> usize {
     let original = state.particles.original(slot) as usize;

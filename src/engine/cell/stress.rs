@@ -67,7 +67,7 @@ impl Cell {
         state.cell.as_ref().map_or(0.0, |cell| self.images.lattice(cell).volume())
     }
 
-    /// Part of the volume that no particle fills; what they overlap counts twice, but not within a clump.
+    /// Part of the volume that no particle fills; what they overlap counts twice, but not within a body.
     pub(crate) fn porosity(&self, state: &State) -> f64 {
         let rows =
             state.particles.position.iter().enumerate().filter(|(slot, _)| state.particles.owner[*slot] != IMAGE);
@@ -106,7 +106,7 @@ impl Cell {
         }
     }
 
-    /// Mean mass of the particles and clumps over the third root of the volume for each; 0 where there are none \[kg/m\].
+    /// Mean mass of the grains over the third root of the volume for each; 0 where there are none \[kg/m\].
     fn inertia(&self, state: &State) -> f64 {
         let (sum, count) = state.grains().fold((0.0, 0_u32), |(sum, count), it| (sum + it.velocity[3], count + 1));
         let each = f64::from(count.max(1));

@@ -24,7 +24,7 @@ pub(super) type SlabRoom = Shared<(Followed, Left)>;
 pub(super) struct Bodies<'a> {
     /// Materials.
     pub(super) material: &'a [u32],
-    /// 0, or the boundary or clump that carries the particle and 1.
+    /// 0, or the number of the body that carries the particle and 1.
     pub(super) owner: &'a [u32],
 }
 

@@ -5,7 +5,7 @@ use crate::engine::bodies::{RigidBody, book};
 use crate::engine::integration::Fields;
 use crate::engine::state::{Loss, Losses, State};
 
-/// Potential of gravity and applied forces on the particles and clumps that move by the forces on them \[J\].
+/// Potential of gravity and applied forces on the grains that move by the forces on them \[J\].
 pub(crate) fn potential(state: &State, fields: &Fields) -> f64 {
     let particles = &state.particles;
     let of = |slot: usize| {

@@ -126,7 +126,7 @@ struct Workspace {
     loads: Vec<BoundaryLoads>,
     /// Sum of the forces of global damping then \[N\].
     damping_force: [f64; 3],
-    /// Sum of the forces of global damping on groups, surfaces and clumps now \[N\].
+    /// Sum of the forces of global damping on bodies of several parts now \[N\].
     braking: [f64; 3],
     /// Nodes of meshes before the time step.
     nodes: nodes::NodeWorkspace,

@@ -180,7 +180,7 @@ impl State {
         let there = self.nodes.iter().map(|nodes| (nodes.boundary as usize) < self.boundaries.len());
         demand_all(there, "nodes", "a boundary of the scene")?;
         self.nodes.iter().try_for_each(Nodes::check)?;
-        self.ledger.iter().try_for_each(|ledger| ledger.check(self.boundaries.len(), self.clumps.len()))?;
+        self.ledger.iter().try_for_each(|ledger| ledger.check(self.owners()))?;
         self.losses.iter().try_for_each(Losses::check)?;
         self.fluid.iter().try_for_each(super::FluidState::check)?;
         self.check_dashpots()?;

@@ -163,7 +163,7 @@ impl BoundaryHeat {
 }
 
 impl Heat {
-    /// Temperature of a particle by its index \[K\]; of spheres of a clump that of its first.
+    /// Temperature of a particle by its index \[K\], which stands for its grain.
     pub fn temperature(&self, index: usize) -> f64 {
         self.initial[index] + self.rise(index)
     }
@@ -174,7 +174,7 @@ impl Heat {
         if self.capacity[index] > 0.0 { self.gained[index] / self.capacity[index] } else { 0.0 }
     }
 
-    /// Heat that particles and clumps gained since counting began, or since they came, those that have gone included \[J\].
+    /// Heat that grains gained since counting began, or since they came, those that have gone included \[J\].
     pub fn energy(&self) -> f64 {
         self.gained.iter().sum::<f64>() + self.departed
     }

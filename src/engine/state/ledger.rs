@@ -80,7 +80,7 @@ pub struct Ledger {
     pub growth: [f64; Source::COUNT],
     /// Sum of the magnitudes of the powers of each piece of the particles \[W\].
     pub power_turned_over: f64,
-    /// Force \[N\] and moment \[N m\] on the spheres of each body, boundaries before clumps, when those of each kind that passes make have been added; empty
+    /// Force \[N\] and moment \[N m\] on the spheres of each body, by its number, when those of each kind that passes make have been added; empty
     /// where the scene has no such kind.
     pub on_bodies: [Vec<[f64; 6]>; Source::PASSES],
 }
@@ -120,16 +120,16 @@ impl Ledger {
 }
 
 impl Ledger {
-    /// Whether the book can be one of a scene with so many boundaries and clumps.
-    pub(super) fn check(&self, boundaries: usize, clumps: usize) -> Result<(), StateFault> {
+    /// Whether the book can be one of a scene with so many bodies.
+    pub(super) fn check(&self, bodies: usize) -> Result<(), StateFault> {
         let Self { initial_kinetic, initial_elastic, turnover, power_turned_over, .. } = *self;
         all_finite(&[initial_kinetic, initial_elastic, turnover, power_turned_over], "ledger")?;
         for powers in [&self.work, &self.power, &self.growth] {
             all_finite(powers, "ledger")?;
         }
         for loads in &self.on_bodies {
-            let expected = "one for each boundary and clump, or none";
-            demand(loads.is_empty() || loads.len() == boundaries + clumps, "loads", loads.len(), expected)?;
+            let expected = "one for each body, or none";
+            demand(loads.is_empty() || loads.len() == bodies, "loads", loads.len(), expected)?;
             loads.iter().try_for_each(|load| all_finite(load, "loads"))?;
         }
         Ok(())

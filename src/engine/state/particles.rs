@@ -188,7 +188,7 @@ impl Particles {
         if image { self.slot[self.id[slot as usize] as usize] } else { slot }
     }
 
-    /// The boundary to whose group, or behind the boundaries the clump to which the particle in a slot belongs.
+    /// The number of the body of several parts to which the particle in a slot belongs.
     pub(crate) fn group(&self, slot: usize) -> Option<usize> {
         let owner = self.owner[slot];
         if owner == IMAGE { None } else { (owner as usize).checked_sub(1) }
