@@ -286,3 +286,47 @@ velocity = [0.2, 0.0, 0.0]
     simulation.advance(1e-3).unwrap();
     assert_near(value(&simulation, "water.mean_drag.y"), PI / 4.0 * 8e-9 * 1000.0 * 0.2 * 40.0, 1e-6);
 }
+
+#[test]
+fn lengths_scaled_by_a_power_of_two_give_the_same_bits_with_lift_and_added_mass() {
+    let run = |lengths: f64, times: f64| {
+        let (r, mu, step) = (1e-3 * lengths, 1e-3 * lengths * lengths / times, 1e-4 * times);
+        let mut simulation = start(&format!(
+            r#"
+gravity = [0.0, 0.0, {:?}]
+[run]
+step = {step:?}
+[material.a]
+density = 900.0
+[particles.sphere]
+material = "a"
+list = [{{ position = [{:?}, {:?}, {:?}], radius = {r:?}, angular_velocity = [0.0, {:?}, 0.0] }}]
+[grid.column]
+box = [[0.0, 0.0, 0.0], [{:?}, {:?}, {:?}]]
+counts = [3, 2, 5]
+[fluid.water]
+density = 1000.0
+viscosity = {mu:?}
+grid = "column"
+velocity = "driven"
+{ALL}
+[fluid.water.drag.beetstra]
+"#,
+            -9.81 * lengths / (times * times),
+            0.0153 * lengths,
+            0.0133 * lengths,
+            0.0253 * lengths,
+            30.0 / times,
+            0.03 * lengths,
+            0.03 * lengths,
+            0.04 * lengths,
+        ));
+        for turn in 0..3 {
+            give(&mut simulation, "velocity", |cell| swirl(cell + turn).map(|part| part * lengths / times));
+            simulation.advance(30.0 * step).unwrap();
+        }
+        velocity_of_first(&simulation).map(|part| (part * times / lengths).to_bits())
+    };
+    assert_eq!(run(1.0, 1.0), run(4.0, 2.0));
+    assert_eq!(run(1.0, 1.0), run(0.125, 0.5));
+}
