@@ -133,8 +133,15 @@ impl Kernel for Part<'_, '_, '_> {
         let Self { work, bodies, given, flow } = self;
         let numbers = [0.0; MOST];
         let (slots, weights) = ([0; MOST], [[(0, 0.0); 8]; MOST]);
-        let mut columns =
-            Columns { count: 0, slots, weights, diameter: numbers, porosity: numbers, number: numbers, temperature: numbers };
+        let mut columns = Columns {
+            count: 0,
+            slots,
+            weights,
+            diameter: numbers,
+            porosity: numbers,
+            number: numbers,
+            temperature: numbers,
+        };
         let mut next = bodies.start;
         while next < bodies.end {
             next = columns.gather(work, next..bodies.end);
