@@ -78,6 +78,8 @@ impl<'a> Stream<'a> {
         if !gradients.is_empty() {
             push = push - Vector::from(between(gradients, &weights));
         }
+        // Weights add up to 1 but for rounding, and drag laws take roots of the solid fraction.
+        let porosity = porosity.min(1.0);
         Some((Here { medium: self.medium, velocity: Vector::new(x, y, z), porosity, push }, weights))
     }
 
