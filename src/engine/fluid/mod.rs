@@ -3,7 +3,7 @@
 //! On a sphere of diameter d and volume V act, beside contacts and weight,
 //!
 //! ```text
-//! β (u − v) − V ∇p        β = 3π µ d ε F(ε, Re)        T = −π µ d³ ω   where the fluid brakes rotation
+//! β (u − v) − V ∇p        β = 3π µ d ε F(ε, Re)        T = π µ d³ (½ ∇ × u − ω)   where the fluid brakes rotation
 //! ```
 //!
 //! u is the velocity of the fluid, ∇p the gradient of its pressure, ε the porosity: those of all places or, on a grid, those between the

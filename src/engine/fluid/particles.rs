@@ -144,10 +144,11 @@ impl<const ROWS: usize> Kernel for Part<'_, '_, '_, ROWS> {
     fn run<N: Lane>(self) {
         let Self { work, some, given, found } = self;
         let (mut columns, beside) = (Columns::new(), work.medium.acts_beside());
+        let looks_around = work.medium.looks_around();
         let mut next = some.start;
         while next < some.end {
             next = columns.gather(work, next..some.end);
-            if beside {
+            if looks_around {
                 columns.gather_beside(work);
             }
             columns.find_drag(work);
