@@ -170,7 +170,7 @@ pub(in crate::scene) fn objections(scene: &SceneDraft) -> Vec<(String, &'static 
         return vec![(table, "porosity", Mistake::Missing { expected })];
     }
     let of_grid = grid_objections(fluid, scene).into_iter().map(|(key, message)| (table.clone(), key, message));
-    let all = of_grid.chain(unsupported(fluid, scene));
+    let all = of_grid.chain(unsupported(fluid, scene)).chain(unsupported_beside_drag(fluid, scene));
     all.map(|(table, key, message)| (table, key, Mistake::Refused { message })).collect()
 }
 
@@ -197,10 +197,25 @@ fn unsupported(fluid: &Fluid, scene: &SceneDraft) -> Vec<(String, &'static str, 
         let message = "expected motion in a fluid, found frozen = true, with which nothing moves";
         refuse("heat", "frozen", message);
     }
-    if let (None, Some(law)) = (fluid.grid, fluid.lift.iter().find(|law| law.rotation() == Rotation::Vorticity)) {
-        let message =
-            format!("expected a grid, found one velocity for all places: {} lifts in a shear flow alone", law.name());
-        refuse(&format!("fluid.{}.lift.{}", fluid.name, law.name()), "", &message);
+    let floats = |boundary: &&super::Boundary| {
+        !boundary.shape.members().is_empty() && boundary.axes.iter().any(AxisMotion::is_free)
+    };
+    if let Some(group) = scene.boundaries.iter().find(floats) {
+        let message = "expected a group that stays or is moved from outside in a fluid, found one that forces move: its drag is not \
+                       modelled, take a clump";
+        refuse(&format!("boundary.{}", group.name), "motion", message);
+    }
+    found
+}
+
+/// What added mass and lift are not modelled with: table, key and why.
+fn unsupported_beside_drag(fluid: &Fluid, scene: &SceneDraft) -> Vec<(String, &'static str, String)> {
+    let mut found = Vec::new();
+    let of_shear = fluid.lift.iter().find(|law| law.rotation() == Rotation::Vorticity);
+    if let (None, Some(law)) = (fluid.grid, of_shear) {
+        let name = law.name();
+        let message = format!("expected a grid, found one velocity for all places: {name} lifts in a shear flow alone");
+        found.push((format!("fluid.{}.lift.{name}", fluid.name), "", message));
     }
     let is_led = |boundary: &&super::Boundary| {
         let moves = |axis: &AxisMotion| !axis.is_fixed() && !axis.is_free();
@@ -209,15 +224,7 @@ fn unsupported(fluid: &Fluid, scene: &SceneDraft) -> Vec<(String, &'static str, 
     if let Some(group) = scene.boundaries.iter().filter(|_| fluid.added_mass.is_some()).find(is_led) {
         let message = "expected a group that stays in a fluid with added mass, found one that is moved from outside: the force of its \
                        acceleration is not modelled";
-        refuse(&format!("boundary.{}", group.name), "motion", message);
-    }
-    let floats = |boundary: &&super::Boundary| {
-        !boundary.shape.members().is_empty() && boundary.axes.iter().any(AxisMotion::is_free)
-    };
-    if let Some(group) = scene.boundaries.iter().find(floats) {
-        let message = "expected a group that stays or is moved from outside in a fluid, found one that forces move: its drag is not \
-                       modelled, take a clump";
-        refuse(&format!("boundary.{}", group.name), "motion", message);
+        found.push((format!("boundary.{}", group.name), "motion", message.to_owned()));
     }
     found
 }

@@ -207,3 +207,54 @@ fn derivatives_of_drag_by_velocities_are_the_weights_and_the_coefficient() {
     // On a ramp half of a change acts in the mean.
     assert_near(found, -0.5 * share * share / all, 0.05);
 }
+
+#[test]
+fn a_torque_takes_grains_to_the_rotation_of_the_fluid() {
+    // u = (4 z, 0, −2 x): ∇ × u = (0, 6, 0). A relaxation time is ρ d²/(60 µ).
+    let mut simulation = start(&format!(
+        r#"
+[run]
+step = 1.0e-4
+[material.a]
+density = 2500.0
+[particles.grains]
+material = "a"
+list = [{{ position = [0.031, 0.014, 0.011], radius = 1.0e-3, angular_velocity = [1.0, -2.0, 0.5] }}]
+[clump.pair]
+spheres = [{{ position = [0.0, 0.0, 0.0], radius = 1.0e-3 }}, {{ position = [1.0e-3, 0.0, 0.0], radius = 1.0e-3 }}]
+[particles.pairs]
+material = "a"
+clump = "pair"
+list = [{{ position = [0.021, 0.016, 0.012] }}]
+[grid.column]
+{SIX}
+[fluid.water]
+density = 1.0
+viscosity = 1.0
+grid = "column"
+velocity = "driven"
+torque = true
+[fluid.water.drag.stokes]
+[output]
+energy = true
+losses = true
+"#
+    ));
+    let grid = simulation.scene().grids[0].shape;
+    give(&mut simulation, "velocity", |cell| {
+        let [x, _, z] = grid.centre(cell);
+        [4.0 * (z - 0.01), 0.0, -2.0 * (x - 0.03)]
+    });
+    simulation.place(None).unwrap();
+    simulation.advance(0.01).unwrap();
+    let state = simulation.state();
+    let grain = state.particles.slots().find(|&slot| state.particles.owner[slot] == 0).unwrap();
+    for spin in [state.particles.angular_velocity[grain], state.clumps.angular_velocity[0]] {
+        for (found, expected) in spin.into_iter().zip([0.0, 3.0, 0.0]) {
+            assert!((found - expected).abs() < 1e-6, "{spin:?} rad/s");
+        }
+    }
+    let (work, taken) = (value(&simulation, "water.work"), value(&simulation, "energy.lost.drag"));
+    let on_grains = state.ledger.as_ref().unwrap().work_of(cograin::state::ledger::Source::Fluid);
+    assert!(taken > 0.0 && (work - taken - on_grains).abs() < 1e-12 * taken, "{work:e}, {taken:e}, {on_grains:e} J");
+}

@@ -1,6 +1,7 @@
 //! A fluid without a partner: drag laws against closed forms, books, fields on grids, heat, and the same bits.
 
 mod beside;
+mod beside_books;
 mod bits;
 mod books;
 mod convection;

@@ -29,6 +29,13 @@ pub(super) struct Around {
     vorticity: Vector,
 }
 
+impl Around {
+    /// Its angular velocity, half its vorticity \[rad/s\].
+    pub(super) fn spin(&self) -> Vector {
+        self.vorticity * 0.5
+    }
+}
+
 /// What acts on a sphere beside drag and the force of the pressure.
 #[derive(Clone, Copy)]
 pub(super) struct Beside {
@@ -52,6 +59,11 @@ impl Medium {
     /// Whether anything acts beside drag and the force of the pressure.
     pub(super) fn acts_beside(&self) -> bool {
         self.added_mass > 0.0 || !self.lift.is_empty()
+    }
+
+    /// Whether it is asked how it moves around a point: by what acts beside, or since its vorticity turns spheres.
+    pub(super) fn looks_around(&self) -> bool {
+        self.acts_beside() || (self.torque && self.grid.is_some())
     }
 
     /// What makes lift of a slip, w × this \[kg/s\]: of a sphere with this slip \[m/s\] and angular velocity \[rad/s\].
@@ -101,7 +113,13 @@ impl<'a> Stream<'a> {
         self.medium.acts_beside()
     }
 
+    /// Angular velocity of the fluid at a point \[m\] \[rad/s\]; 0 of one with one velocity for all places.
+    pub(super) fn spin(&self, point: Vector, velocity: Vector, weights: &Weights) -> Vector {
+        if self.cells.is_some() { self.around(point, velocity, weights).spin() } else { Vector::zero() }
+    }
+
     /// How it moves around a point \[m\].
+    #[inline(never)]
     pub(super) fn around(&self, point: Vector, velocity: Vector, weights: &Weights) -> Around {
         let mut found = Around { acceleration: Vector::zero(), vorticity: Vector::zero() };
         if self.medium.added_mass > 0.0 {
@@ -135,11 +153,13 @@ impl<'a> Stream<'a> {
         half: f64,
     ) -> Option<(Flow, Vector)> {
         let (here, weights) = self.at(place)?;
-        let (motion, mass) = ([rigid.velocity, spin], rigid.mass);
-        if !self.acts_beside() {
-            return Some((here.on(diameter, motion, (mass, other[0]), half), Vector::zero()));
+        let mass = rigid.mass;
+        if !self.medium.looks_around() {
+            return Some((here.on(diameter, [rigid.velocity, spin], (mass, other[0]), half), Vector::zero()));
         }
         let around = self.around(place, here.velocity, &weights);
+        // The torque is that of the spin against the fluid.
+        let motion = [rigid.velocity, spin - around.spin()];
         let beside = self.beside(&around, diameter, (mass, true), Vector::zero());
         let (here, whole) = (here.with(&around, &beside, diameter), mass + beside.mass);
         let flow = here.on(diameter, motion, (whole, other[0]), half);
@@ -183,7 +203,8 @@ impl Columns {
             let known = vector(&self.other, place) + vector(&self.force, place);
             let later = slip - gain(slip, drag, (self.mass[place], known - slip * drag), half);
             let (spin, turning) = (Vector::from(*body.spin), work.medium.turning(diameter));
-            let torque = (Vector::from(*body.torque) - spin * turning).row_with(turning);
+            let ahead = spin - vector(&self.vorticity, place) * 0.5;
+            let torque = (Vector::from(*body.torque) - ahead * turning).row_with(turning);
             let spin = spin + Vector::from(torque) * kick(body.spin, &torque, half);
             let across = work.medium.across((porosity, diameter), later, spin, vector(&self.vorticity, place));
             let lift = lift(across, slip, drag, (self.mass[place], known), half);

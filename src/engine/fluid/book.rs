@@ -141,7 +141,8 @@ fn of_particle(kick: &HalfKick, stream: &Stream, state: &State, slot: usize) -> 
     let shift = Shift { kick, stream, at: (place.into(), &here, &weights), diameter: 2.0 * place[3], body: slot };
     let mut exchanged = shift.exchanged((velocity, force), is_free, gained);
     if stream.has_torque() {
-        exchanged = exchanged.plus(kick.turn(spin, torque, gained(spin, torque)));
+        let flow = stream.spin(place.into(), here.velocity, &weights);
+        exchanged = exchanged.plus(kick.turn(flow, spin, torque, gained(spin, torque)));
     }
     Some((weights, exchanged))
 }
@@ -201,6 +202,10 @@ fn of_clump(kick: &HalfKick, stream: &Stream, state: &State, clump: usize) -> Op
     let shift = shift.exchanged((velocity, force), true, |motion, load| exactly(kick.gained(motion, load)));
     let [now, before] = clumps::turns(rows, clump, [kick.half, kick.behind.unwrap_or(0.0)]);
     let gained = Gained { is_free: true, now, before, more: Vector::zero() };
-    let turn = kick.turn(&rows.angular_velocity[clump], &rows.moment[clump], gained);
+    // Without a torque of the fluid its dashpot is 0, and so is all that follows.
+    let has_torque = stream.has_torque();
+    let flow =
+        if has_torque { stream.spin(rows.position[clump].into(), here.velocity, &weights) } else { Vector::zero() };
+    let turn = kick.turn(flow, &rows.angular_velocity[clump], &rows.moment[clump], gained);
     Some((weights, shift.plus(turn)))
 }

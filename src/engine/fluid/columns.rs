@@ -275,12 +275,13 @@ impl Columns {
             // SAFETY: parts do not overlap, and each is worked on by one thread.
             let body = unsafe { work.rows.body(self.slots[place] as usize) };
             let (spin, turning) = (Vector::from(*body.spin), work.medium.turning(self.diameter[place]));
-            *body.torque = (Vector::from(*body.torque) + spin * -turning).row_with(turning);
+            let flow = vector(&self.vorticity, place) * 0.5;
+            *body.torque = (Vector::from(*body.torque) + (spin - flow) * -turning).row_with(turning);
             if work.books {
                 let gained = if body.owner == 0 { now.gained(body.spin, body.torque) } else { Gained::default() };
                 let later = (spin + gained.now).row_with(body.spin[3]);
-                found.now = found.now.plus(now.turn(body.spin, body.torque, gained).booked());
-                found.coming = found.coming.plus(coming.turn(&later, body.torque, again(gained)).booked());
+                found.now = found.now.plus(now.turn(flow, body.spin, body.torque, gained).booked());
+                found.coming = found.coming.plus(coming.turn(flow, &later, body.torque, again(gained)).booked());
             }
         }
     }

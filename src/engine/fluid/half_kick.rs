@@ -173,16 +173,17 @@ impl HalfKick {
         }
     }
 
-    /// What it exchanges with the rotation, by a torque with its dashpot.
+    /// What it exchanges with the rotation, by a torque with its dashpot, where the fluid turns so \[rad/s\].
     #[inline(always)]
-    pub(super) fn turn(&self, spin: &Row, torque: &Row, gained: Gained) -> Exchanged {
+    pub(super) fn turn(&self, flow: Vector, spin: &Row, torque: &Row, gained: Gained) -> Exchanged {
         let (spin, Gained { is_free, now, before, more }) = (Vector::from(*spin), gained);
-        let earlier = spin - before;
-        let work = (earlier + now).dot(spin + now * 0.5) * -(self.half * torque[3]);
+        let (earlier, mean) = (spin - before - flow, spin + now * 0.5);
+        let (ahead, dashpot) = (earlier + now, self.half * torque[3]);
         let others = Vector::from(*torque) + earlier * torque[3];
         Exchanged {
-            taken: -work,
-            on_free: if is_free { work } else { 0.0 },
+            work: ahead.dot(flow) * -dashpot,
+            taken: ahead.dot(mean - flow) * dashpot,
+            on_free: if is_free { ahead.dot(mean) * -dashpot } else { 0.0 },
             others: 0.5 * self.half * others.dot(more),
             ..Exchanged::default()
         }

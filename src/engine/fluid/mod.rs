@@ -3,7 +3,7 @@
 //! On a sphere of diameter d and volume V act, beside contacts and weight,
 //!
 //! ```text
-//! β (u − v) − V ∇p        β = 3π µ d ε F(ε, Re)        T = −π µ d³ ω   where the fluid brakes rotation
+//! β (u − v) − V ∇p        β = 3π µ d ε F(ε, Re)        T = π µ d³ (½ ∇ × u − ω)   where the fluid brakes rotation
 //! ```
 //!
 //! u is the velocity of the fluid, ∇p the gradient of its pressure, ε the porosity: those of all places or, on a grid, those between the
@@ -32,6 +32,7 @@ pub(crate) use particles::load;
 pub(crate) use porosity::renew;
 pub(crate) use stream::Stream;
 
+use crate::base::lanes::Width;
 use crate::base::number::Vector;
 use crate::engine::state::{Clumps, Row};
 use crate::laws::convection::Nusselt;
@@ -162,7 +163,21 @@ impl Medium {
 
     /// Conductance between the fluid and a sphere against which it moves so \[W/K\]; 0 where no heat flows.
     fn conductance(&self, diameter: f64, porosity: f64, slip: Vector) -> f64 {
-        let Some(Convects { law, conductivity, prandtl }) = &self.heat else { return 0.0 };
-        PI * conductivity * diameter * law.nusselt(porosity, self.reynolds(diameter, porosity, slip), *prandtl)
+        let mut number = [self.reynolds(diameter, porosity, slip)];
+        self.find_nusselt_numbers(&[porosity], &mut number, Width::Least);
+        self.conductance_of(diameter, number[0])
+    }
+
+    /// Puts the Nusselt numbers of spheres in place of their Reynolds numbers, where heat flows.
+    fn find_nusselt_numbers(&self, porosities: &[f64], numbers: &mut [f64], width: Width) {
+        if let Some(Convects { law, prandtl, .. }) = &self.heat {
+            law.numbers(porosities, numbers, *prandtl, width);
+        }
+    }
+
+    /// Conductance of a sphere with this Nusselt number \[W/K\]; 0 where no heat flows.
+    #[inline(always)]
+    fn conductance_of(&self, diameter: f64, nusselt: f64) -> f64 {
+        self.heat.as_ref().map_or(0.0, |heat| PI * heat.conductivity * diameter * nusselt)
     }
 }

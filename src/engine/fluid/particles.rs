@@ -26,9 +26,7 @@ pub(crate) fn load(medium: &mut Medium, state: &mut State, fields: &Fields, cont
     let mut sums = std::mem::take(&mut medium.sums);
     let ids = std::mem::take(&mut state.particles.id);
     let (count, cells, step) = (ids.len(), fluid.velocity.now.len(), context.step);
-    let mut lift = std::mem::take(&mut fluid.lift);
-    lift.clear();
-    lift.resize(if medium.lift.is_empty() { 0 } else { count + state.clumps.len() }, [0.0; 4]);
+    let mut lift = lifts(medium, &mut fluid, count + state.clumps.len());
     let work = Work {
         stream: Stream::of(medium, &fluid),
         medium,
@@ -61,6 +59,14 @@ pub(crate) fn load(medium: &mut Medium, state: &mut State, fields: &Fields, cont
     state.particles.id = ids;
     medium.sums = sums;
     state.fluid = Some(fluid);
+}
+
+/// Room for the lift on so many bodies, where anything lifts.
+fn lifts(medium: &Medium, fluid: &mut FluidState, count: usize) -> Vec<Row> {
+    let mut lift = std::mem::take(&mut fluid.lift);
+    lift.clear();
+    lift.resize(if medium.lift.is_empty() { 0 } else { count }, [0.0; 4]);
+    lift
 }
 
 /// Gives cells what they exchange in the half kick that ends the step, and notes it for the one that comes, which is the same but for the way
@@ -138,10 +144,11 @@ impl<const ROWS: usize> Kernel for Part<'_, '_, '_, ROWS> {
     fn run<N: Lane>(self) {
         let Self { work, some, given, found } = self;
         let (mut columns, beside) = (Columns::new(), work.medium.acts_beside());
+        let looks_around = work.medium.looks_around();
         let mut next = some.start;
         while next < some.end {
             next = columns.gather(work, next..some.end);
-            if beside {
+            if looks_around {
                 columns.gather_beside(work);
             }
             columns.find_drag(work);

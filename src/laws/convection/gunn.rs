@@ -25,6 +25,7 @@ impl Convection for Gunn {
         Self
     }
 
+    #[inline(always)]
     fn nusselt(&self, porosity: f64, reynolds: f64, prandtl: f64) -> f64 {
         let root = libm::cbrt(prandtl);
         let logarithm = ln(reynolds);

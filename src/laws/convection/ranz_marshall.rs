@@ -24,6 +24,7 @@ impl Convection for RanzMarshall {
         Self
     }
 
+    #[inline(always)]
     fn nusselt(&self, _porosity: f64, reynolds: f64, prandtl: f64) -> f64 {
         2.0 + 0.6 * reynolds.sqrt() * libm::cbrt(prandtl)
     }

@@ -31,9 +31,9 @@ impl Lift for SaffmanMei {
 
     #[inline]
     fn factor(&self, reynolds: f64, rotation: f64) -> f64 {
-        // √α (1 − e^(−Re/10)) vanishes with Re.
-        let root = (0.5 * rotation / reynolds.max(f64::MIN_POSITIVE)).sqrt();
-        let slow = libm::exp(-0.1 * reynolds) - 0.3314 * root * libm::expm1(-0.1 * reynolds);
+        // √α (1 − e^(−Re/10)) = √(½ Re_Ω Re) (1 − e^(−Re/10))/Re vanishes with Re.
+        let rise = -libm::expm1(-0.1 * reynolds) / reynolds.max(f64::MIN_POSITIVE);
+        let slow = libm::exp(-0.1 * reynolds) + 0.3314 * (0.5 * rotation * reynolds).sqrt() * rise;
         let fast = 0.0524 * (0.5 * rotation).sqrt();
         1.615 * (if reynolds < FAST { slow } else { fast }) * rotation.sqrt()
     }

@@ -21,7 +21,7 @@ use crate::output::results::files::Checkpoint;
 use crate::output::results::schedule::Schedule;
 use crate::output::run::remarks::remarks;
 use crate::scene::exchange::{Amount, Outside};
-use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Grid, Insertion, Kind, Scene, Step};
+use crate::scene::{AxisMotion, Boundary, CellMotion, ContactLaw, Fluid, Grid, Insertion, Kind, Scene, Step};
 use rules::rules;
 use serde::Serialize;
 use std::fmt;
@@ -216,11 +216,7 @@ fn uses(scene: &Scene, simulation: &Simulation) -> Vec<String> {
             .iter()
             .map(|force| format!("force {} on {}", force.name, counted(force.members.len(), "particle"))),
     );
-    uses.extend(scene.fluid.iter().map(|fluid| {
-        let motion = if fluid.velocity.is_driven() { "driven" } else { "given" };
-        let place = fluid.grid.map(|grid| format!(" in the cells of grid {}", scene.grids[grid].name));
-        format!("fluid {}: drag {}, its velocity {motion}{}", fluid.name, fluid.drag.name(), place.unwrap_or_default())
-    }));
+    uses.extend(scene.fluid.iter().map(|it| fluid(scene, it)));
     uses.extend(scene.regions.iter().map(|region| format!("region {}: computed when it is read", region.name)));
     uses.extend(scene.grids.iter().map(grid));
     uses.extend(exchange(scene));
@@ -307,6 +303,21 @@ fn insertion(insertion: &Insertion) -> String {
         Amount::Mass(mass) => format!("{mass:?} kg"),
     };
     format!("insertion {}: {amount}, {}", insertion.name, kinds.join(", "))
+}
+
+/// A fluid, in words.
+fn fluid(scene: &Scene, fluid: &Fluid) -> String {
+    let motion = if fluid.velocity.is_driven() { "driven" } else { "given" };
+    let place = fluid.grid.map(|grid| format!(" in the cells of grid {}", scene.grids[grid].name));
+    let lift = fluid.lift.iter().map(|law| format!(", lift {}", law.name()));
+    let added = fluid.added_mass.map(|added| format!(", added mass {added}"));
+    let beside: String = lift.chain(added).collect();
+    format!(
+        "fluid {}: drag {}{beside}, its velocity {motion}{}",
+        fluid.name,
+        fluid.drag.name(),
+        place.unwrap_or_default()
+    )
 }
 
 /// A grid in one line.
