@@ -16,7 +16,7 @@ pub(super) struct ChartArguments {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     settings: Vec<Setting>,
     /// Error of the outputs, over the largest value of each quantity, for which to recommend a step
-    #[arg(long, value_name = "ERROR", default_value_t = 0.01, value_parser = above_zero)]
+    #[arg(long, value_name = "ERROR", default_value_t = 0.01, allow_negative_numbers = true, value_parser = above_zero)]
     wanted: f64,
     /// Folder of the tables and pictures
     #[arg(short, long, value_name = "DIR", default_value = "charts")]
@@ -24,7 +24,7 @@ pub(super) struct ChartArguments {
 }
 
 /// A finite number above 0.
-fn above_zero(text: &str) -> Result<f64, String> {
+pub(super) fn above_zero(text: &str) -> Result<f64, String> {
     let found = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
     found.ok_or_else(|| format!("expected a number above 0, found {text:?}"))
 }

@@ -118,6 +118,12 @@ pub(super) fn new(arguments: &NewArguments) -> Result<(), Ending> {
             path.display()
         )));
     }
+    if folder.metadata().is_ok_and(|it| !it.is_dir()) {
+        return Err(Ending::refused(format_args!(
+            "{}: expected a folder, or a name that is not there yet, found a file",
+            folder.display()
+        )));
+    }
     fs::create_dir_all(&folder).map_err(|error| Ending::failed(format_args!("{}: {error}", folder.display())))?;
     for (name, text) in recipe.files {
         write(&folder.join(name), text)?;

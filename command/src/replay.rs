@@ -1,5 +1,6 @@
 //! `cograin verify`
 
+use super::chart::above_zero;
 use super::{Ending, say};
 use clap::Args;
 use cograin::bond::keys::FormulationChoice;
@@ -14,7 +15,7 @@ pub(super) struct VerifyArguments {
     #[arg(required = true, value_name = "DIR")]
     folders: Vec<PathBuf>,
     /// Largest relative error, unless the case is more sensitive
-    #[arg(long, value_name = "ERROR", default_value_t = verify::Options::default().tolerance)]
+    #[arg(long, value_name = "ERROR", default_value_t = verify::Options::default().tolerance, allow_negative_numbers = true, value_parser = above_zero)]
     tolerance: f64,
     /// Folder that gets the trajectories
     #[arg(long, value_name = "OUT")]

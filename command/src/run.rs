@@ -1,5 +1,6 @@
 //! `cograin run`
 
+use super::chart::above_zero;
 use super::interruption::stop_at_interruption;
 use super::progress::Progress;
 use super::scene::{ComputeArguments, files_read, read_to_run};
@@ -26,7 +27,7 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "CHECKPOINT", num_args = 0..=1)]
     resume: Option<Option<PathBuf>>,
     /// End at this time [s] instead of the scene's; with --resume a run goes on beyond its end
-    #[arg(long, value_name = "TIME", value_parser = positive)]
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true, value_parser = above_zero)]
     end: Option<f64>,
     /// Replace the results of an earlier run in that folder
     #[arg(long)]
@@ -34,12 +35,6 @@ pub(super) struct RunArguments {
     /// Table of the driven boundaries' displacements: CSV with `time` and columns named as the unit's inputs
     #[arg(long, value_name = "CSV")]
     inputs: Option<PathBuf>,
-}
-
-/// A number above 0.
-fn positive(text: &str) -> Result<f64, String> {
-    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
-    number.ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 /// `cograin run`

@@ -320,6 +320,9 @@ class Study:
         self.kept = self.folder / "results.jsonl"
         self.results: dict[str, Result] = {}
         self._whole = 0  # length of the whole lines of the file
+        self.table = self.folder / "results.csv"
+        if self.table.exists() and not self.kept.is_file():
+            raise StudyError(f"{self.table}: expected a folder without it, or one of a study; take another folder")
         self._read()
 
     def _read(self) -> None:
@@ -391,7 +394,7 @@ class Study:
         for result in done:
             self._keep(result)
             progress.add(result)
-        self.save(self.folder / "results.csv")
+        self.save(self.table)
         return [self.results[_key(row)] for row in self.rows]
 
     def _is_open(self, row: Row, retry: bool) -> bool:

@@ -285,5 +285,12 @@ def test_a_folder_with_other_text_is_refused(tmp_path):
         Study({"x": [1]}, square, tmp_path)
 
 
+def test_a_table_that_no_study_wrote_stays_as_it_is(tmp_path):
+    (tmp_path / "results.csv").write_text("mine")
+    with pytest.raises(StudyError, match="results.csv: expected a folder without it"):
+        Study({"x": [1]}, square, tmp_path)
+    assert (tmp_path / "results.csv").read_text() == "mine"
+
+
 def test_numbers_of_numpy_are_plain_numbers():
     assert checked({"x": numpy.array([1, 2])}) == [{"x": 1}, {"x": 2}]

@@ -65,6 +65,8 @@ fn files_that_are_there_stay_as_they_are() {
     assert!(said.contains("couple.py: expected no such file, found one"), "{said}");
     assert_eq!(fs::read_to_string(folder.join("couple.py")).unwrap(), "mine");
     assert!(!folder.join("scene.toml").exists(), "nothing is half written");
+    let said = complaint(&cograin(&[&"new", &"drop", &"-o", &folder.join("couple.py")]).output().unwrap(), 2);
+    assert!(said.contains("couple.py: expected a folder, or a name that is not there yet"), "{said}");
 }
 
 #[test]

@@ -27,6 +27,16 @@ fn a_scene_that_is_not_there_is_refused() {
 }
 
 #[test]
+fn a_number_out_of_range_is_told_with_what_is_expected() {
+    for [command, option] in [["run", "--end"], ["chart", "--wanted"], ["verify", "--tolerance"]] {
+        for number in ["-1", "0", "nan", "inf"] {
+            let said = complaint(&cograin(&[&command, &"x", &option, &number]).output().unwrap(), 2);
+            assert!(said.contains("expected a number above 0") && said.contains(option), "{said}");
+        }
+    }
+}
+
+#[test]
 fn a_wrong_command_line_is_refused() {
     for arguments in [
         vec!["dance"],
