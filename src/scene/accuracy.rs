@@ -1,8 +1,8 @@
 //! How accurate impacts are to be: what scheme and time step a scene takes where it names neither.
 
+use crate::base::document::{Forms, several_forms};
 use crate::laws::contact::Scheme;
-use serde::de::{Error, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, Unexpected};
 use std::fmt;
 
 /// `[run] accuracy`: the largest error of the coefficient of restitution that the automatic time step allows in impacts of two bodies,
@@ -47,34 +47,22 @@ impl fmt::Display for Accuracy {
     }
 }
 
-impl<'de> Deserialize<'de> for Accuracy {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a number or a word.
-        struct NumberOrWord;
-        /// What is expected.
-        const EXPECTED: &str = "a number above 0 and below 1, \"standard\" or \"high\"";
-        impl Visitor<'_> for NumberOrWord {
-            type Value = Accuracy;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Accuracy, E> {
-                match value > 0.0 && value < 1.0 {
-                    true => Ok(Accuracy::Within(value)),
-                    false => Err(E::custom(format!("expected {EXPECTED}, found {value:?}"))),
-                }
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Accuracy, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<Accuracy, E> {
-                match word {
-                    "standard" => Ok(Accuracy::Standard),
-                    "high" => Ok(Accuracy::High),
-                    _ => Err(E::unknown_variant(word, &["standard", "high"])),
-                }
-            }
+impl Forms for Accuracy {
+    const EXPECTED: &'static str = "a number above 0 and below 1, \"standard\" or \"high\"";
+
+    fn number<E: Error>(value: f64, _written: Unexpected) -> Result<Self, E> {
+        match value > 0.0 && value < 1.0 {
+            true => Ok(Self::Within(value)),
+            false => Err(Self::refused(value)),
         }
-        deserializer.deserialize_any(NumberOrWord)
+    }
+
+    fn word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "standard" => Ok(Self::Standard),
+            "high" => Ok(Self::High),
+            _ => Err(E::unknown_variant(word, &["standard", "high"])),
+        }
     }
 }
+several_forms!(Accuracy);

@@ -1,6 +1,7 @@
 //! A scene that has been checked as a whole.
 
 use super::SceneDraft;
+use crate::base::lanes::Width;
 use crate::laws::bond::Law;
 use std::ops::Deref;
 
@@ -33,6 +34,12 @@ impl Scene {
     /// The same scene for so many threads; `None`: as many as the machine offers. The results are the same.
     pub fn with_threads(mut self, threads: Option<std::num::NonZeroUsize>) -> Self {
         self.draft.run.threads = threads.map(usize::from);
+        self
+    }
+
+    /// The same scene in this lane width; `None`: the widest that the processor offers. The results are the same.
+    pub fn with_width(mut self, width: Option<Width>) -> Self {
+        self.draft.run.width = width;
         self
     }
 }

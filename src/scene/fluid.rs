@@ -4,6 +4,7 @@ use super::{AxisMotion, Cell, Grid, MotionPlane, ParticleShape, SceneDraft};
 use crate::base::document::Mistake;
 use crate::laws::convection::ConvectionModel;
 use crate::laws::drag::DragModel;
+use crate::laws::lift::{LiftModel, Rotation};
 use serde::Deserialize;
 
 /// A fluid around the particles.
@@ -25,6 +26,10 @@ pub struct Fluid {
     pub porosity: Option<f64>,
     /// The law of its drag.
     pub drag: DragModel,
+    /// The laws of its lift.
+    pub lift: Vec<LiftModel>,
+    /// Added mass of a sphere over the mass of the fluid in its volume, where that is modelled.
+    pub added_mass: Option<f64>,
     /// Whether it brakes the rotation of the particles.
     pub torque: bool,
     /// What lets heat flow into it; none where none does.
@@ -191,6 +196,20 @@ fn unsupported(fluid: &Fluid, scene: &SceneDraft) -> Vec<(String, &'static str, 
     if scene.heat.frozen {
         let message = "expected motion in a fluid, found frozen = true, with which nothing moves";
         refuse("heat", "frozen", message);
+    }
+    if let (None, Some(law)) = (fluid.grid, fluid.lift.iter().find(|law| law.rotation() == Rotation::Vorticity)) {
+        let message =
+            format!("expected a grid, found one velocity for all places: {} lifts in a shear flow alone", law.name());
+        refuse(&format!("fluid.{}.lift.{}", fluid.name, law.name()), "", &message);
+    }
+    let is_led = |boundary: &&super::Boundary| {
+        let moves = |axis: &AxisMotion| !axis.is_fixed() && !axis.is_free();
+        !boundary.shape.members().is_empty() && boundary.axes.iter().any(moves)
+    };
+    if let Some(group) = scene.boundaries.iter().filter(|_| fluid.added_mass.is_some()).find(is_led) {
+        let message = "expected a group that stays in a fluid with added mass, found one that is moved from outside: the force of its \
+                       acceleration is not modelled";
+        refuse(&format!("boundary.{}", group.name), "motion", message);
     }
     let floats = |boundary: &&super::Boundary| {
         !boundary.shape.members().is_empty() && boundary.axes.iter().any(AxisMotion::is_free)

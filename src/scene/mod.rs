@@ -63,6 +63,7 @@ pub use region::Region;
 pub use sizes::Sizes;
 pub use source::Source;
 
+use crate::base::lanes::Width;
 use crate::base::quantity::{BoundaryIndex, MaterialIndex, ParticleId, SetIndex};
 use crate::laws::contact::{self, HeatModel, LawChoice, Material, Properties, Scheme};
 
@@ -182,6 +183,8 @@ pub struct Run {
     pub strict_step: bool,
     /// Threads; `None`: as many as the machine offers.
     pub threads: Option<usize>,
+    /// Lane width; `None`: the widest that the processor offers.
+    pub width: Option<Width>,
     /// Seed of everything random.
     pub seed: u64,
     /// Distance beyond touch up to which neighbours are searched \[m\]; `None`: chosen from motion and list length.
@@ -210,6 +213,7 @@ impl Default for Run {
             allow_unstable: false,
             strict_step: false,
             threads: None,
+            width: None,
             seed: 1,
             skin: None,
             settle_tolerance: 1e-4,
@@ -307,6 +311,12 @@ pub struct Particle {
 }
 
 impl Particle {
+    /// How far from the origin numbers still say what a particle of this radius touches \[m\]: their spacing is a millionth
+    /// of the radius there.
+    pub(crate) fn farthest(radius: f64) -> f64 {
+        1e-6 * radius / f64::EPSILON
+    }
+
     /// Mass \[kg\].
     pub fn mass(&self) -> f64 {
         self.shape.volume(self.radius) * self.density

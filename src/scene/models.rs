@@ -8,6 +8,7 @@ use crate::laws::contact::{
 };
 use crate::laws::convection::{self, Convection, ConvectionRow};
 use crate::laws::drag::{self, Drag, DragRow};
+use crate::laws::lift::{self, Lift, LiftRow};
 use crate::laws::surface::{self, ShapeKeys, ShapeRow};
 use crate::laws::wear::{self, Wear, WearRow};
 
@@ -39,6 +40,8 @@ pub struct Models {
     pub(crate) shapes: Vec<&'static ShapeRow>,
     /// Drag laws of fluids.
     pub(crate) drag: Vec<&'static DragRow>,
+    /// Laws of lift of fluids.
+    pub(crate) lift: Vec<&'static LiftRow>,
     /// Laws of convection of fluids.
     pub(crate) convection: Vec<&'static ConvectionRow>,
     /// Models of wear.
@@ -65,6 +68,7 @@ impl Models {
             breakage: breakage::STANDARD.to_vec(),
             shapes: surface::STANDARD.to_vec(),
             drag: drag::STANDARD.to_vec(),
+            lift: lift::STANDARD.to_vec(),
             convection: convection::STANDARD.to_vec(),
             wear: wear::STANDARD.to_vec(),
             columns: vec![&TEMPERATURE],
@@ -116,6 +120,12 @@ impl Models {
     /// The same and a drag law, in place of one of the same name.
     pub fn with_drag<D: Drag>(mut self) -> Self {
         put(&mut self.drag, DragRow::of::<D>(), DragRow::name);
+        self
+    }
+
+    /// The same and a law of lift, in place of one of the same name.
+    pub fn with_lift<L: Lift>(mut self) -> Self {
+        put(&mut self.lift, LiftRow::of::<L>(), LiftRow::name);
         self
     }
 

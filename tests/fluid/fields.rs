@@ -59,6 +59,41 @@ fn porosity_is_what_spheres_leave_by_their_exact_parts() {
 }
 
 #[test]
+fn a_grain_in_empty_cells_has_the_drag_of_one_sphere_wherever_it_is() {
+    for law in ["koch_hill", "beetstra", "di_felice", "gidaspow"] {
+        let drag = |fluid: &str| {
+            // A grain of 1 µm leaves a cell of 1 m empty, to rounding.
+            let mut simulation = start(&format!(
+                r#"
+[run]
+step = 1.0e-9
+[material.a]
+density = 2500.0
+[particles.grains]
+material = "a"
+lattice = {{ kind = "simple_cubic", origin = [0.51, 0.53, 0.57], counts = [5, 5, 5], spacing = 0.21, radius = 1.0e-6 }}
+[grid.column]
+box = [[0.0, 0.0, 0.0], [2.0, 2.0, 2.0]]
+counts = [2, 2, 2]
+[fluid.air]
+density = 1.2
+viscosity = 1.8e-5
+velocity = [0.1, 0.2, 0.3]
+{fluid}
+[fluid.air.drag.{law}]
+"#
+            ));
+            simulation.advance(1e-8).unwrap();
+            simulation.state().particles.force.iter().map(|force| force[2]).collect::<Vec<_>>()
+        };
+        let expected = drag("porosity = 1.0");
+        for (found, expected) in drag("grid = \"column\"").into_iter().zip(expected) {
+            assert_near(found, expected, 1e-6);
+        }
+    }
+}
+
+#[test]
 fn a_uniform_flow_on_a_grid_is_that_of_a_fluid_without_one() {
     let keys = "viscosity = 1.0e-3\ndensity = 1000.0\nvelocity = [0.1, 0.2, -0.05]";
     let run = |fluid: &str| {

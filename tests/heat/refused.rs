@@ -33,3 +33,37 @@ fn a_strict_step_above_it_is_refused_with_what_limits_it() {
     let refused = cograin::simulation::Simulation::new(scene).map(drop).unwrap_err().to_string();
     assert!(refused.contains("limited by the conduction of heat"), "{refused}");
 }
+
+#[test]
+fn what_loses_more_heat_than_it_has_stops_the_run() {
+    let scene = |source: &str, boundary: &str| {
+        format!(
+            r#"
+[run]
+step = 1.0e-3
+[material.stone]
+density = 2500.0
+specific_heat = 800.0
+[particles.grain]
+material = "stone"
+temperature = 300.0
+list = [{{ id = 7, position = [0.0, 0.0, 0.01], radius = 1.0e-3 }}]
+[boundary.plate]
+plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+material = "stone"
+temperature = 300.0
+heat_capacity = 0.01
+{boundary}
+{source}
+"#
+        )
+    };
+    let source = |power: &str| format!("[heat_source.cooler]\nparticles = {{ set = \"grain\" }}\npower = {power}");
+    for (power, boundary, name) in [("-1.0", "", "particle 7"), ("0.0", "applied_heat = -1.0", "[boundary.plate]")] {
+        let mut simulation = start(&scene(&source(power), boundary));
+        // 2.51 J to 0 K of the grain, 3 J of the plate.
+        simulation.advance(2.0).unwrap();
+        let stopped = simulation.advance(1.5).unwrap_err().to_string();
+        assert!(stopped.starts_with(&format!("{name} has a temperature of -")), "{stopped}");
+    }
+}

@@ -156,7 +156,9 @@ velocity = { prescribed = { x = { sine = { amplitude = 0.01, frequency = 10.0 } 
 temperature = 290.0
 conductivity = 0.6
 specific_heat = 4186.0
+added_mass = 0.5
 [fluid.water.drag.stokes]
+[fluid.water.lift.magnus]
 [fluid.water.heat.ranz_marshall]
 "#;
 

@@ -1,6 +1,6 @@
 //! The force of surfaces on a sphere: of faces, edges, corners, bends and every shape.
 
-use super::scenes::{MESH, RADIUS, assert_same, bend, force_at, hertz, random, sheet};
+use super::scenes::{MESH, RADIUS, ROUGH, assert_same, bend, force_at, forces, hertz, random, scene, sheet};
 use crate::support::Triangle;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -19,6 +19,30 @@ fn any_triangulation_of_a_plane_is_the_plane() {
     let expected = [0.0, 0.0, hertz(5e-5)];
     for [x, y] in places {
         assert_same(force_at([x, y, RADIUS - 5e-5], MESH, &[("wall.stl", triangles.clone())]), expected, 1e-12);
+    }
+}
+
+#[test]
+fn friction_on_any_triangulation_of_a_plane_is_that_on_the_plane() {
+    let square = [[-0.03, -0.03, 0.0], [0.03, -0.03, 0.0], [0.03, 0.03, 0.0], [-0.03, 0.03, 0.0]];
+    let [a, b, c, d] = square;
+    let middle = [0.0, 0.0, 0.0];
+    let two = vec![[a, b, c], [a, c, d]];
+    let four = vec![[a, b, middle], [b, c, middle], [c, d, middle], [d, a, middle]];
+    let turned: Vec<Triangle> = two.iter().map(|[a, b, c]| [*b, *c, *a]).collect();
+    // On a corner of four triangles and on edges of two, beside them, and inside of a face.
+    let places = [[0.0, 0.0], [0.003, 0.003], [-0.007, 0.007], [0.003, 0.003 + 1e-12], [0.011, 0.002]];
+    let places = places.map(|[x, y]| [x, y, RADIUS - 5e-5]);
+    let belt = "material = \"wall\"\nmotion = { conveying = { x = 0.1, y = 0.07 } }\n";
+    let plane = format!("[boundary.wall]\nplane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}\n{belt}");
+    let mesh = format!("[boundary.wall]\nmesh = {{ file = \"wall.stl\", sides = 2 }}\n{belt}");
+    for place in places {
+        let expected = forces(&scene(&[place], ROUGH, &plane, &[]))[0];
+        assert!(expected[0] > 0.0 && expected[1] > 0.0);
+        for triangles in [&two, &four, &turned] {
+            let found = forces(&scene(&[place], ROUGH, &mesh, &[("wall.stl", triangles.clone())]))[0];
+            assert_same(found, expected, 1e-12);
+        }
     }
 }
 

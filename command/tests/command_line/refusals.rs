@@ -28,7 +28,13 @@ fn a_scene_that_is_not_there_is_refused() {
 
 #[test]
 fn a_wrong_command_line_is_refused() {
-    for arguments in [vec!["dance"], vec!["run"], vec!["settle", "scene.toml"], vec!["run", "x", "--threads", "0"]] {
+    for arguments in [
+        vec!["dance"],
+        vec!["run"],
+        vec!["settle", "scene.toml"],
+        vec!["run", "x", "--threads", "0"],
+        vec!["run", "x", "--lanes", "3"],
+    ] {
         let arguments: Vec<&dyn AsRef<std::ffi::OsStr>> = arguments.iter().map(|a| a as _).collect();
         complaint(&cograin(&arguments).output().unwrap(), 2);
     }

@@ -85,7 +85,7 @@ torque = true
 "#;
 
 #[test]
-fn any_number_of_threads_leaves_the_same_bytes() {
+fn any_number_of_threads_and_lanes_leaves_the_same_bytes() {
     let place = Place::new("threads");
     let scene = place.scene("end = 4e-3\nstep = 2e-5", ALL_OUTPUTS);
     // A few spheres are not worth a second thread.
@@ -100,6 +100,9 @@ fn any_number_of_threads_leaves_the_same_bytes() {
         out
     });
     folders[1..].iter().for_each(|folder| assert_same(&folders[0], folder));
+    let narrow = place.at("narrow");
+    complaint(&cograin(&[&"run", &scene, &"-o", &narrow, &"--lanes", &"2"]).output().unwrap(), 0);
+    assert_same(&folders[0], &narrow);
 }
 
 #[test]

@@ -18,7 +18,7 @@ fn a_quiet_run_says_nothing_and_a_quiet_check_reports() {
 #[test]
 fn a_long_run_tells_in_a_pipe_how_far_it_is() {
     let place = Place::new("progress");
-    let (scene, out) = (place.scene("end = 1.0\nstep = 1e-7", "history_interval = 0.5"), place.at("out"));
+    let (scene, out) = (place.scene("end = 1.0\nstep = 1e-6", "history_interval = 0.5"), place.at("out"));
     let done = cograin(&[&"run", &scene, &"-o", &out]).output().unwrap();
     let said = complaint(&done, 0);
     let lines: Vec<&str> = said.lines().collect();

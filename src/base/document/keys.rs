@@ -107,6 +107,21 @@ pub(crate) fn printed(keys: &[Key]) -> String {
     format!("| key | meaning | default |\n|---|---|---|\n{lines}")
 }
 
+/// The table of the documentation of models: a line for each key, with all models that have it.
+#[cfg(test)]
+pub(crate) fn printed_by_model(models: &[(&str, &[Key])]) -> String {
+    let mut lines: Vec<(String, String)> = Vec::new();
+    for (model, key) in models.iter().flat_map(|(model, keys)| keys.iter().map(move |key| (model, key))) {
+        let line = key.line();
+        match lines.iter_mut().find(|(_, own)| *own == line) {
+            Some((models, _)) => models.push_str(&format!(", `{model}`")),
+            None => lines.push((format!("`{model}`"), line)),
+        }
+    }
+    let lines: String = lines.into_iter().map(|(models, line)| format!("| {models} {line}")).collect();
+    format!("| model | key | meaning | default |\n|---|---|---|---|\n{lines}")
+}
+
 /// The table of the documentation of several tables: a line for each.
 #[cfg(test)]
 pub(crate) fn printed_together(what: &str, tables: &[(&str, &[Key])]) -> String {

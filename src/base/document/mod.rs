@@ -4,6 +4,7 @@ mod attempt;
 mod error;
 mod faults;
 mod foreign;
+mod forms;
 mod keys;
 pub(crate) mod messages;
 mod mistake;
@@ -15,9 +16,10 @@ mod value;
 
 pub use error::{SceneError, SceneErrors};
 pub(crate) use faults::Faults;
+pub(crate) use forms::{Forms, any_form, several_forms};
 pub(crate) use keys::{Key, Table, keys};
 #[cfg(test)]
-pub(crate) use keys::{printed, printed_together};
+pub(crate) use keys::{printed, printed_by_model, printed_together};
 pub use mistake::Mistake;
 pub(crate) use phrases::{proposal, told_columns};
 pub(crate) use setting::apply;

@@ -112,10 +112,14 @@ impl Fullness {
         Self(scene.clump_shapes.iter().map(ClumpShape::fullness).collect())
     }
 
+    /// The share of the particle in a slot: 1 but of the sphere of a clump.
+    pub(crate) fn share(&self, state: &State, slot: usize) -> f64 {
+        state.clump(slot).map_or(1.0, |clump| self.0[state.clumps.shape[clump] as usize])
+    }
+
     /// Volume of what of a particle is inside \[m³\]: of the sphere of a clump its share of the union.
     pub(crate) fn volume(&self, state: &State, part: &Inside) -> f64 {
-        let clump = state.clump(part.slot as usize);
-        part.volume * clump.map_or(1.0, |clump| self.0[state.clumps.shape[clump] as usize])
+        part.volume * self.share(state, part.slot as usize)
     }
 }
 

@@ -128,11 +128,7 @@ fn carried_in(looks: &[Look], simulation: &Simulation) -> Vec<Vec<Tensor>> {
             centre(contact.first) - Vector::from(contact.normal) * apart
         }
     };
-    // From the centre of a sphere to the mass centre of its clump.
-    let inward = |index: u32| {
-        let clump = state.clump(state.particles.slot[index as usize] as usize)?;
-        Some(Vector::from(state.clumps.position[clump]) - centre(index))
-    };
+    let inward = |index: u32| state.inward(state.particles.slot[index as usize] as usize);
     let mut carry = |(first, to): (u32, Vector), (second, from): (Option<u32>, Vector), force: Vector| {
         add(to, from, force);
         if let Some(arm) = inward(first) {
@@ -167,9 +163,8 @@ fn content(look: &Look, simulation: &Simulation) -> Vec<Content> {
     let (scene, state) = (simulation.scene(), simulation.state());
     let particles = &state.particles;
     let fullness = Fullness::of(scene);
-    // A clump moves as a whole: how it turns is no part of the flow, as of a sphere.
-    let velocity =
-        |slot: usize| state.clump(slot).map_or(particles.velocity[slot], |clump| state.clumps.velocity[clump]);
+    // How a body turns is no part of the flow.
+    let velocity = |slot: usize| state.velocity_of_grain(slot);
     let mut contents = vec![Content::default(); look.count()];
     let mut masses = Vec::new();
     for inside in inside(look, state, &simulation.quiet()) {

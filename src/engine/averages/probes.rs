@@ -76,37 +76,22 @@ fn particle(simulation: &Simulation, slot: usize) -> Sight {
 
 /// All particles of a set that are there, in the order of the scene.
 fn all_of(simulation: &Simulation, set: SetIndex) -> Sight {
-    let (scene, particles) = (simulation.scene(), &simulation.state().particles);
+    let (scene, state) = (simulation.scene(), simulation.state());
     let (mut mass, mut place, mut momentum, mut force) = (0.0, Vector::zero(), Vector::zero(), Vector::zero());
-    let members = (0..).zip(&scene.particles).filter(|(_, particle)| particle.set == set);
-    for slot in members.filter_map(|(index, _)| particles.slot_of(index)) {
-        if simulation.state().clump(slot).is_some() {
-            continue;
-        }
-        let own = particles.velocity[slot][3];
+    let of_set = |index: u32| scene.particles.get(index as usize).is_some_and(|particle| particle.set == set);
+    for grain in state.grains().filter(|grain| of_set(grain.index)) {
+        let own = grain.velocity[3];
         mass += own;
-        place += Vector::from(simulation.state().unwrapped(slot)) * own;
-        momentum += Vector::from(particles.velocity[slot]) * own;
-        force += Vector::from(particles.force[slot]);
-    }
-    let clumps = &simulation.state().clumps;
-    let of_set = |clump: &usize| {
-        let first = scene.particles.get(clumps.spheres_of(*clump)[0] as usize);
-        first.is_some_and(|first| first.set == set)
-    };
-    for place_of in (0..clumps.len()).filter(of_set) {
-        let own = clumps.velocity[place_of][3];
-        mass += own;
-        place += Vector::from(simulation.state().unwrapped_clump(place_of)) * own;
-        momentum += Vector::from(clumps.velocity[place_of]) * own;
-        force += Vector::from(clumps.force[place_of]);
+        place += Vector::from(state.unwrapped_grain(&grain)) * own;
+        momentum += Vector::from(*grain.velocity) * own;
+        force += Vector::from(*grain.force);
     }
     let (mut heat, mut capacity) = (0.0, 0.0);
     let members = (0..).zip(&scene.particles).filter(|(_, particle)| particle.set == set);
-    for slot in members.filter_map(|(index, _)| particles.slot_of(index)) {
-        let Some(temperature) = transfer::temperature(simulation.state(), slot) else { break };
-        let own =
-            loads::mass_of(scene, (particles, clumps), slot) * transfer::specific_heat(scene, simulation.state(), slot);
+    for slot in members.filter_map(|(index, _)| state.particles.slot_of(index)) {
+        let Some(temperature) = transfer::temperature(state, slot) else { break };
+        let specific = transfer::specific_heat(scene, state, slot);
+        let own = loads::mass_of(scene, (&state.particles, &state.clumps), slot) * specific;
         heat += own * temperature;
         capacity += own;
     }

@@ -103,6 +103,8 @@ fn load_boundaries(fields: &Fields, bodies: &[Option<RigidBody>], state: &mut St
 /// The same of clumps, with the loads of their spheres as passes left them.
 fn load_clumps((fields, medium): (&Fields, Option<&Medium>), state: &mut State, context: &Context) -> Vector {
     let State { particles, clumps, fluid, .. } = state;
+    let mut lifts = fluid.as_mut().map_or_else(Vec::new, |fluid| std::mem::take(&mut fluid.lift));
+    let lift = (!lifts.is_empty()).then(|| Shared::new(&mut lifts).from(particles.len()));
     let stream = medium.zip(fluid.as_ref()).map(|(medium, fluid)| Stream::of(medium, fluid));
     let count = clumps.len();
     let damps = fields.damps();
@@ -120,14 +122,17 @@ fn load_clumps((fields, medium): (&Fields, Option<&Medium>), state: &mut State, 
             let mut dashpots = [0.0; 2];
             if fields.act_beside_weight() {
                 let motion = [body.rigid.velocity, Vector::from(clumps_now.angular_velocity[clump])];
-                if let Some((stream, (here, _))) =
-                    stream.and_then(|it| Some((it, it.at(clumps_now.position[clump].into())?)))
-                {
-                    let other = body.own_loads(fields, particles).into_iter().fold(load[0], |sum, own| sum + own[0]);
-                    let (diameter, mass) = (stream.diameter(clumps_now, clump), body.rigid.mass);
-                    let flow = here.on(diameter, motion, (mass, other), 0.5 * context.step);
+                let flows = stream.and_then(|stream| {
+                    let own = body.own_loads(fields, particles);
+                    let other = [0, 1].map(|part| own.iter().fold(load[part], |sum, own| sum + own[part]));
+                    let sphere = (clumps_now.position[clump].into(), stream.diameter(clumps_now, clump));
+                    stream.on_clump(sphere, (&body.rigid, motion[1]), other, 0.5 * context.step)
+                });
+                if let Some((flow, lifted)) = flows {
                     load = [load[0] + flow.force, load[1] + flow.torque];
                     dashpots = [flow.drag, flow.turning];
+                    // SAFETY: each clump is worked on by one thread, and has a row behind those of particles.
+                    lift.iter().for_each(|rows| unsafe { *rows.at(clump) = lifted.row_with(0.0) });
                 }
                 let [whole, brake] = body.whole(fields, particles, (load, motion));
                 (load, sum) = (whole, sum + brake[0]);
@@ -148,6 +153,7 @@ fn load_clumps((fields, medium): (&Fields, Option<&Medium>), state: &mut State, 
     };
     let sum = context.fold(pieces(count), of_piece, Vector::zero(), |sum, part| sum + part);
     (clumps.force, clumps.moment, clumps.braking) = (forces, moments, brakings);
+    fluid.iter_mut().for_each(|fluid| fluid.lift = std::mem::take(&mut lifts));
     sum
 }
 

@@ -22,13 +22,14 @@ pub use stress::Fabric;
 
 use crate::base::number::Row;
 use crate::base::threads::Context;
+use crate::engine::averages::look::Fullness;
 use crate::engine::bodies::clumps::{self, ClumpBodies};
 use crate::engine::run_error::RunError;
 use crate::engine::state::cell::{CellState, Square, Strains};
 use crate::engine::state::ledger::Source;
 use crate::engine::state::{Ledger, State, StateFault, demand};
 use crate::laws::motion::{InputCourse, Progress};
-use crate::scene::{CellMotion, ClumpShape, Scene};
+use crate::scene::{CellMotion, Scene};
 use deformation::{Change, product, times};
 use images::Images;
 use servo::Felt;
@@ -51,8 +52,8 @@ pub(crate) struct Cell {
     /// The largest distance of a surface from the point that the cell carries along: that radius or, of a clump, one about the mass centre
     /// \[m\].
     reach: f64,
-    /// Volume of each shape of clumps over the sum of those of its spheres.
-    fullness: Vec<f64>,
+    /// Shares of the volumes of spheres that overlap.
+    fullness: Fullness,
     /// The deformation of the present time step.
     change: Option<Change>,
     /// The other velocities: with the streaming motion while time steps are at their ends, without it while forces are evaluated.
@@ -66,7 +67,7 @@ impl Cell {
         let motion = scene.cell.as_ref()?.motion;
         let largest = scene.radii().fold(0.0, f64::max);
         let reach = clumps::farthest(&ClumpBodies::begun(scene)) + largest;
-        let fullness = scene.clump_shapes.iter().map(ClumpShape::fullness).collect();
+        let fullness = Fullness::of(scene);
         Some(Self { images, motion, largest, reach, fullness, change: None, other: Vec::new() })
     }
 

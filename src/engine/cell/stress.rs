@@ -71,9 +71,8 @@ impl Cell {
     pub(crate) fn porosity(&self, state: &State) -> f64 {
         let rows =
             state.particles.position.iter().enumerate().filter(|(slot, _)| state.particles.owner[*slot] != IMAGE);
-        let full = |slot: usize| state.clump(slot).map_or(1.0, |it| self.fullness[state.clumps.shape[it] as usize]);
         let volume = |row: &[f64; 4]| 4.0 / 3.0 * std::f64::consts::PI * row[3] * row[3] * row[3];
-        let solid: f64 = rows.map(|(slot, row)| full(slot) * volume(row)).sum();
+        let solid: f64 = rows.map(|(slot, row)| self.fullness.share(state, slot) * volume(row)).sum();
         1.0 - solid / self.volume(state)
     }
 

@@ -2,12 +2,12 @@
 
 use super::half_kick::{Exchanged, Gained, HalfKick};
 use super::sums::Given;
-use super::{Medium, Stream};
+use super::{Here, Medium, Stream};
 use crate::base::number::{Vector, add};
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::bodies::clumps;
 use crate::engine::state::fluid::Booked;
-use crate::engine::state::{FluidState, Loss, State};
+use crate::engine::state::{FluidState, Loss, Row, State};
 use crate::laws::region::Weights;
 use std::ops::Range;
 
@@ -137,12 +137,49 @@ fn of_particle(kick: &HalfKick, stream: &Stream, state: &State, slot: usize) -> 
     let (velocity, force) = (&particles.velocity[slot], &particles.force[slot]);
     let (spin, torque) = (&particles.angular_velocity[slot], &particles.torque[slot]);
     let is_free = particles.owner[slot] == 0;
-    let gained = |motion, load| if is_free { kick.gained(motion, load) } else { Gained::default() };
-    let mut exchanged = kick.shift((&here, 2.0 * place[3]), velocity, force, gained(velocity, force));
+    let gained = |motion: &Row, load: &Row| if is_free { kick.gained(motion, load) } else { Gained::default() };
+    let shift = Shift { kick, stream, at: (place.into(), &here, &weights), diameter: 2.0 * place[3], body: slot };
+    let mut exchanged = shift.exchanged((velocity, force), is_free, gained);
     if stream.has_torque() {
         exchanged = exchanged.plus(kick.turn(spin, torque, gained(spin, torque)));
     }
     Some((weights, exchanged))
+}
+
+/// The translation of a sphere in a half kick.
+struct Shift<'a, 'b> {
+    /// The half kick.
+    kick: &'a HalfKick,
+    /// How the fluid flows.
+    stream: &'a Stream<'b>,
+    /// Where the sphere is \[m\], how the fluid flows there, and the cells around it.
+    at: (Vector, &'a Here<'b>, &'a Weights),
+    /// Its diameter \[m\].
+    diameter: f64,
+    /// Its number among particles and, counted on behind these, clumps.
+    body: usize,
+}
+
+impl Shift<'_, '_> {
+    /// What the sphere exchanges with the fluid, where it moves so by this load and gains of it what is told.
+    #[inline(always)]
+    fn exchanged(
+        &self,
+        (velocity, force): (&Row, &Row),
+        is_free: bool,
+        gained: impl Fn(&Row, &Row) -> Gained,
+    ) -> Exchanged {
+        let (Self { kick, stream, diameter, .. }, (point, here, weights)) = (self, self.at);
+        if !stream.acts_beside() {
+            return kick.shift((here, *diameter), velocity, force, gained(velocity, force));
+        }
+        let around = stream.around(point, here.velocity, weights);
+        let beside = stream.beside(&around, *diameter, (velocity[3], is_free), stream.lift(self.body));
+        let here = here.with(&around, &beside, *diameter);
+        let [motion, load] = beside.whole(velocity, force);
+        let gained = gained(&motion, &load);
+        kick.beside(kick.shift((&here, *diameter), &motion, &load, gained), &motion, gained, &beside)
+    }
 }
 
 /// That of a clump.
@@ -154,7 +191,14 @@ fn of_clump(kick: &HalfKick, stream: &Stream, state: &State, clump: usize) -> Op
     // The book of bodies takes every half kick as it is.
     let exactly = |gained| Gained { more: Vector::zero(), ..gained };
     let diameter = stream.diameter(rows, clump);
-    let shift = kick.shift((&here, diameter), velocity, force, exactly(kick.gained(velocity, force)));
+    let shift = Shift {
+        kick,
+        stream,
+        at: (rows.position[clump].into(), &here, &weights),
+        diameter,
+        body: state.particles.len() + clump,
+    };
+    let shift = shift.exchanged((velocity, force), true, |motion, load| exactly(kick.gained(motion, load)));
     let [now, before] = clumps::turns(rows, clump, [kick.half, kick.behind.unwrap_or(0.0)]);
     let gained = Gained { is_free: true, now, before, more: Vector::zero() };
     let turn = kick.turn(&rows.angular_velocity[clump], &rows.moment[clump], gained);

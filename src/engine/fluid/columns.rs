@@ -21,7 +21,7 @@ type Vectors = [Numbers; 3];
 
 /// The vector of one particle.
 #[inline(always)]
-fn vector([x, y, z]: &Vectors, place: usize) -> Vector {
+pub(super) fn vector([x, y, z]: &Vectors, place: usize) -> Vector {
     Vector::new(x[place], y[place], z[place])
 }
 
@@ -40,40 +40,40 @@ fn total(numbers: &Numbers, count: usize) -> f64 {
 
 /// Writes the vector of one particle.
 #[inline(always)]
-fn put([x, y, z]: &mut Vectors, place: usize, vector: Vector) {
+pub(super) fn put([x, y, z]: &mut Vectors, place: usize, vector: Vector) {
     (x[place], y[place], z[place]) = (vector.x, vector.y, vector.z);
 }
 
 /// Some particles in the fluid.
 pub(super) struct Columns {
     /// How many.
-    count: usize,
+    pub(super) count: usize,
     /// Their slots.
-    slots: [u32; MOST],
+    pub(super) slots: [u32; MOST],
     /// The cells around each.
-    weights: [Weights; MOST],
+    pub(super) weights: [Weights; MOST],
     /// Diameter \[m\].
-    diameter: Numbers,
-    /// Mass \[kg\].
-    mass: Numbers,
+    pub(super) diameter: Numbers,
+    /// Mass, the added one among it \[kg\].
+    pub(super) mass: Numbers,
     /// Length of the half kick \[s\]; 0 of one that is held.
-    half: Numbers,
+    pub(super) half: Numbers,
     /// Velocity \[m/s\].
-    velocity: Vectors,
+    pub(super) velocity: Vectors,
     /// Force of everything but the fluid \[N\].
-    other: Vectors,
+    pub(super) other: Vectors,
     /// Velocity of the fluid \[m/s\].
-    flow: Vectors,
+    pub(super) flow: Vectors,
     /// Porosity.
-    porosity: Numbers,
+    pub(super) porosity: Numbers,
     /// Force of the pressure gradient on each volume \[N/m³\].
-    push: Vectors,
+    pub(super) push: Vectors,
     /// Reynolds number, and then the factor of the drag law.
     factor: Numbers,
     /// Force of the fluid \[N\].
-    force: Vectors,
+    pub(super) force: Vectors,
     /// Drag over the velocity \[kg/s\].
-    drag: Numbers,
+    pub(super) drag: Numbers,
     /// What cells are given, row by row.
     given: [Vectors; WITH_GRADIENT],
     /// What stands behind the first of these rows.
@@ -82,6 +82,14 @@ pub(super) struct Columns {
     booked: [[Numbers; 3]; 2],
     /// Impulse on what is free, in each of them \[N s\].
     moved: Vectors,
+    /// Added mass \[kg\].
+    pub(super) added: Numbers,
+    /// Mass over that with the added one; 1 of what is held.
+    pub(super) share: Numbers,
+    /// What acts beside drag and the force of the pressure \[N\].
+    pub(super) beside: Vectors,
+    /// Vorticity of the fluid \[1/s\].
+    pub(super) vorticity: Vectors,
 }
 
 /// What a motion gains in the half kick that comes, if it gains this in the one before, with the same load.
@@ -114,6 +122,10 @@ impl Columns {
             resistance: numbers,
             booked: [vectors; 2],
             moved: vectors,
+            added: numbers,
+            share: numbers,
+            beside: vectors,
+            vorticity: vectors,
         }
     }
 
@@ -149,7 +161,7 @@ impl Columns {
 
     /// How the fluid flows at one of them.
     #[inline(always)]
-    fn here<'a>(&self, medium: &'a Medium, place: usize) -> Here<'a> {
+    pub(super) fn here<'a>(&self, medium: &'a Medium, place: usize) -> Here<'a> {
         let (velocity, push) = (vector(&self.flow, place), vector(&self.push, place));
         Here { medium, velocity, porosity: self.porosity[place], push }
     }
@@ -182,9 +194,9 @@ impl Columns {
         }
     }
 
-    /// Finds what the half kicks around the end of the step exchange.
+    /// Finds what the half kicks around the end of the step exchange, where more than drag and the force of the pressure acts or not.
     #[inline(always)]
-    pub(super) fn find_books(&mut self, work: &Work) {
+    pub(super) fn find_books<const BESIDE: bool>(&mut self, work: &Work) {
         let volume = work.medium.grid.map_or(1.0, |grid| grid.cell_volume());
         let [now, coming] = work.kicks();
         for place in 0..self.count.min(MOST) {
@@ -195,8 +207,14 @@ impl Columns {
             let (is_free, gained) = (self.half[place] > 0.0, now.gained(&motion, &load));
             let gained = Gained { is_free, now: Vector::select(is_free, gained.now, Vector::zero()), ..gained };
             let later = (velocity + gained.now).row_with(mass);
-            let now = now.shift((&here, diameter), &motion, &load, gained);
-            let coming = coming.shift((&here, diameter), &later, &load, again(gained));
+            let (kicks, motions) = ([now, coming], [motion, later]);
+            let mut now = now.shift((&here, diameter), &motion, &load, gained);
+            let mut coming = coming.shift((&here, diameter), &later, &load, again(gained));
+            if BESIDE {
+                let beside = self.beside_of(place);
+                now = kicks[0].beside(now, &motions[0], gained, &beside);
+                coming = kicks[1].beside(coming, &motions[1], gained, &beside);
+            }
             let [drag, pushed, way] = now.on_fluid(volume);
             let [.., next] = coming.on_fluid(volume);
             self.resistance[place] = drag[3];

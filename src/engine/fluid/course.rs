@@ -25,6 +25,7 @@ pub(crate) fn begun(scene: &Scene) -> Option<FluidState> {
             .map_or_else(Course::default, |heat| Course::at_rest(cells, [heat.temperature, 0.0, 0.0])),
         heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
         mean_heat: vec![[0.0; 4]; if fluid.heat.is_some() { cells } else { 0 }],
+        acceleration: vec![[0.0; 4]; if fluid.added_mass.is_some() { cells } else { 0 }],
         exchanged: vec![[0.0; 4]; rows * cells],
         mean: vec![[0.0; 4]; rows * cells],
         coming: Coming { rows: vec![[0.0; 4]; rows * cells], ..Coming::default() },

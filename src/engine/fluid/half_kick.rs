@@ -8,6 +8,7 @@
 //!
 //! w is the slip of the load: that of the velocity half a step earlier, where the kick begins a step.
 
+use super::beside::Beside;
 use super::{Here, volume};
 use crate::base::number::Vector;
 use crate::engine::integration::mobility;
@@ -39,6 +40,23 @@ pub(super) struct Exchanged {
 }
 
 impl Exchanged {
+    /// What acts by this impulse \[N s\] on a sphere that is held.
+    pub(super) fn of_held(impulse: Vector) -> Self {
+        Self { impulse, ..Self::default() }
+    }
+
+    /// What acts by an impulse of drag and one of added mass, and all together by a third one \[N s\], on a sphere that forces move, where the
+    /// fluid has one velocity and the sphere the other one \[m/s\].
+    pub(super) fn of_free((drag, added): (Vector, Vector), all: Vector, [flow, mean]: [Vector; 2]) -> Self {
+        let (taken, on_free) = (drag.dot(flow - mean), all.dot(mean));
+        Self { impulse: drag + added, work: on_free + taken, taken, on_free, moved: all, ..Self::default() }
+    }
+
+    /// The same with a volume that goes a way \[m⁴\].
+    pub(super) fn with_way(self, swept: Vector) -> Self {
+        Self { swept, ..self }
+    }
+
     /// What the fluid gets in cells of this volume \[m³\]: the impulses, which are not those of the bodies, with the resistance behind the
     /// first; and the superficial way of the bodies.
     #[inline(always)]
@@ -136,6 +154,22 @@ impl HalfKick {
             on_free: if is_free { drag.dot(mean) + half * push.dot(mean) } else { 0.0 },
             moved: Vector::select(is_free, drag + push * half, Vector::zero()),
             others: 0.5 * half * others.dot(more),
+        }
+    }
+
+    /// What it exchanges with the translation of a sphere, where what acts beside drag was taken for a part of the pressure and the added mass
+    /// for one of the sphere.
+    #[inline(always)]
+    pub(super) fn beside(&self, whole: Exchanged, velocity: &Row, gained: Gained, beside: &Beside) -> Exchanged {
+        let (impulse, carried) = (beside.force * self.half, gained.now * beside.mass);
+        let work = carried.dot(Vector::from(*velocity) + gained.now * 0.5);
+        Exchanged {
+            impulse: whole.impulse + impulse - carried,
+            pushed: whole.pushed - impulse,
+            work: whole.work - work,
+            on_free: whole.on_free - work,
+            moved: whole.moved - carried,
+            ..whole
         }
     }
 

@@ -12,6 +12,8 @@
 //! before and after ([`kick`](crate::engine::integration)). The relaxation of the fluid thus limits no time step. β is that of the velocity
 //! half a step later, which makes the scheme of second order whatever the law.
 
+mod acceleration;
+mod beside;
 mod book;
 mod columns;
 mod convection;
@@ -22,6 +24,7 @@ mod porosity;
 mod stream;
 mod sums;
 
+pub(crate) use acceleration::accelerate;
 pub(crate) use book::{Kick, book};
 pub(crate) use convection::{convect, rate};
 pub(crate) use course::{advance, begin, begun, end, put};
@@ -30,9 +33,10 @@ pub(crate) use porosity::renew;
 pub(crate) use stream::Stream;
 
 use crate::base::number::Vector;
-use crate::engine::state::Clumps;
+use crate::engine::state::{Clumps, Row};
 use crate::laws::convection::Nusselt;
 use crate::laws::drag::Factor;
+use crate::laws::lift::Across;
 use crate::laws::region::Grid;
 use crate::scene::{FluidHeat, Pressure, Scene};
 use std::f64::consts::PI;
@@ -50,6 +54,13 @@ pub(crate) struct Medium {
     grid: Option<Grid>,
     /// The law of its drag.
     law: Arc<dyn Factor>,
+    /// The laws of its lift.
+    lift: Vec<Arc<dyn Across>>,
+    /// Added mass of a sphere over its volume; 0 where none is modelled \[kg/m³\].
+    added_mass: f64,
+    /// Force of the pressure gradient on each volume over the acceleration of the fluid: its density, where added mass is modelled and no
+    /// gradient given, which would contain it; else 0 \[kg/m³\].
+    inertial: f64,
     /// Whether it brakes rotation.
     torque: bool,
     /// Force of the pressure gradient on each volume beside that which is given: of the fluid at rest, where that does not contain it
@@ -59,6 +70,8 @@ pub(crate) struct Medium {
     diameters: Vec<f64>,
     /// Room for sums over the cells of the grid.
     sums: CellSums,
+    /// Room for changes of the acceleration in each of them \[m/s²\].
+    changes: Vec<Row>,
     /// What lets heat flow into it, where any does.
     heat: Option<Convects>,
 }
@@ -103,10 +116,14 @@ impl Medium {
             viscosity: fluid.viscosity,
             grid: fluid.grid.map(|grid| scene.grids[grid].shape),
             law: fluid.drag.law(),
+            lift: fluid.lift.iter().map(|lift| lift.law()).collect(),
+            added_mass: fluid.added_mass.unwrap_or(0.0) * fluid.density,
+            inertial: if fluid.added_mass.is_some() && fluid.pressure.is_none() { fluid.density } else { 0.0 },
             torque: fluid.torque,
             buoyancy: if contains_rest { Vector::zero() } else { Vector::from(scene.gravity) * -fluid.density },
             diameters: scene.clump_shapes.iter().map(|shape| diameter(shape.volume)).collect(),
             sums: CellSums::default(),
+            changes: Vec::new(),
             heat: fluid.heat.map(|FluidHeat { law, conductivity, specific_heat, .. }| Convects {
                 law: law.law(),
                 conductivity,

@@ -7,7 +7,7 @@ use super::columns::Columns;
 use super::half_kick::HalfKick;
 use super::sums::{CellSums, Given};
 use super::{Medium, Stream};
-use crate::base::lanes::{self, Kernel, Lane, Width};
+use crate::base::lanes::{self, Kernel, Lane, Shared, Width};
 use crate::base::number::add;
 use crate::base::threads::{CHUNK, Context};
 use crate::engine::integration::{Fields, Rows};
@@ -26,12 +26,16 @@ pub(crate) fn load(medium: &mut Medium, state: &mut State, fields: &Fields, cont
     let mut sums = std::mem::take(&mut medium.sums);
     let ids = std::mem::take(&mut state.particles.id);
     let (count, cells, step) = (ids.len(), fluid.velocity.now.len(), context.step);
+    let mut lift = std::mem::take(&mut fluid.lift);
+    lift.clear();
+    lift.resize(if medium.lift.is_empty() { 0 } else { count + state.clumps.len() }, [0.0; 4]);
     let work = Work {
         stream: Stream::of(medium, &fluid),
         medium,
         fields,
         rows: Rows::of(&mut state.particles),
         ids: &ids,
+        lift: (!lift.is_empty()).then(|| Shared::new(&mut lift)),
         boundaries: state.boundaries.len() as u32,
         step,
         width: context.width,
@@ -46,6 +50,7 @@ pub(crate) fn load(medium: &mut Medium, state: &mut State, fields: &Fields, cont
         }
     };
     let books = work.books;
+    fluid.lift = lift;
     fluid.step = step;
     fluid.coming.step = if books { step } else { 0.0 };
     if books {
@@ -104,6 +109,8 @@ pub(super) struct Work<'a> {
     pub(super) rows: Rows<'a>,
     /// Their ids.
     pub(super) ids: &'a [u32],
+    /// Lift on each of them, where anything lifts \[N\].
+    pub(super) lift: Option<Shared<Row>>,
     /// How many boundaries there are: images and spheres of clumps are counted on behind them.
     pub(super) boundaries: u32,
     /// The time step \[s\].
@@ -130,14 +137,27 @@ impl<const ROWS: usize> Kernel for Part<'_, '_, '_, ROWS> {
     #[inline(always)]
     fn run<N: Lane>(self) {
         let Self { work, some, given, found } = self;
-        let mut columns = Columns::new();
+        let (mut columns, beside) = (Columns::new(), work.medium.acts_beside());
         let mut next = some.start;
         while next < some.end {
             next = columns.gather(work, next..some.end);
+            if beside {
+                columns.gather_beside(work);
+            }
             columns.find_drag(work);
+            if beside {
+                columns.find_lift(work);
+            }
             if work.books {
-                columns.find_books(work);
+                if beside {
+                    columns.find_books::<true>(work);
+                } else {
+                    columns.find_books::<false>(work);
+                }
                 columns.hand_out::<ROWS>(given, found);
+            }
+            if beside {
+                columns.share_out();
             }
             columns.write(work, found);
         }

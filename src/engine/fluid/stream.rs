@@ -12,12 +12,16 @@ const ALONE: Weights = [(0, 1.0), (0, 0.0), (0, 0.0), (0, 0.0), (0, 0.0), (0, 0.
 #[derive(Clone, Copy)]
 pub(crate) struct Stream<'a> {
     /// What never changes.
-    medium: &'a Medium,
+    pub(super) medium: &'a Medium,
     /// How it flows in the first cell: everywhere, without a grid.
     first: Here<'a>,
     /// The centres of the cells of its grid, the velocity in each \[m/s\] with the porosity behind it, and the gradient of the pressure there \[Pa/m\], if one
     /// is given.
-    cells: Option<(Centres, &'a [Row], &'a [Row])>,
+    pub(super) cells: Option<(Centres, &'a [Row], &'a [Row])>,
+    /// How fast the velocity in each cell changed in the last time step \[m/s²\]; empty without added mass.
+    pub(super) accelerations: &'a [Row],
+    /// Lift on each particle and clump \[N\]; empty where nothing lifts.
+    pub(super) lifts: &'a [Row],
     /// The temperature in each cell \[K\], along x; empty where no heat flows into it.
     temperatures: &'a [Row],
 }
@@ -37,7 +41,7 @@ pub(crate) struct Here<'a> {
 
 /// The sum of rows by their weights.
 #[inline(always)]
-fn between(rows: &[Row], weights: &Weights) -> Row {
+pub(super) fn between(rows: &[Row], weights: &Weights) -> Row {
     let mut sum = [0.0; 4];
     for &(cell, weight) in weights {
         let row = &rows[cell];
@@ -57,7 +61,8 @@ impl<'a> Stream<'a> {
         let (velocity, push) = (Vector::new(x, y, z), medium.buoyancy - gradient);
         let first = Here { medium, velocity, porosity, push };
         let cells = medium.grid.map(|grid| (grid.centres(), flow, gradients));
-        Self { medium, first, cells, temperatures: &fluid.temperature.now }
+        let FluidState { acceleration, lift, temperature, .. } = fluid;
+        Self { medium, first, cells, accelerations: acceleration, lifts: lift, temperatures: &temperature.now }
     }
 
     /// How it flows at a point \[m\], and of which cells that is by which weights; none where there is no fluid.
@@ -73,12 +78,19 @@ impl<'a> Stream<'a> {
         if !gradients.is_empty() {
             push = push - Vector::from(between(gradients, &weights));
         }
+        // Weights add up to 1 but for rounding, and drag laws take roots of the solid fraction.
+        let porosity = porosity.min(1.0);
         Some((Here { medium: self.medium, velocity: Vector::new(x, y, z), porosity, push }, weights))
     }
 
     /// Its temperature in cells of these weights \[K\].
     pub(super) fn temperature(&self, weights: &Weights) -> f64 {
         between(self.temperatures, weights)[0]
+    }
+
+    /// Lift on a particle or, counted on behind these, on a clump, as present loads hold it \[N\].
+    pub(super) fn lift(&self, body: usize) -> Vector {
+        self.lifts.get(body).map_or(Vector::zero(), |row| Vector::from(*row))
     }
 
     /// Whether it brakes rotation.
@@ -94,18 +106,26 @@ impl<'a> Stream<'a> {
     /// The largest acceleration that it gives to what forces move in a state \[m/s²\].
     pub(crate) fn acceleration(&self, state: &State) -> f64 {
         let State { particles, clumps, .. } = state;
-        let of = |place: Row, velocity: Row, drag: f64, diameter: f64| {
-            let Some((here, _)) = self.at(place.into()) else { return 0.0 };
+        let of = |body: usize, place: Row, velocity: Row, drag: f64, diameter: f64| {
+            let Some((here, weights)) = self.at(place.into()) else { return 0.0 };
             let drag = (here.velocity - Vector::from(velocity)) * drag;
-            (drag.length() + here.push(diameter).length()) / velocity[3]
+            let push = if self.acts_beside() {
+                let around = self.around(place.into(), here.velocity, &weights);
+                let beside = self.beside(&around, diameter, (velocity[3], true), self.lift(body));
+                here.with(&around, &beside, diameter).push(diameter) * beside.share
+            } else {
+                here.push(diameter)
+            };
+            (drag.length() + push.length()) / velocity[3]
         };
         let free = (0..particles.len()).filter(|&slot| particles.owner[slot] == 0);
         let of_particles = free.map(|slot| {
             let place = particles.position[slot];
-            of(place, particles.velocity[slot], particles.force[slot][3], 2.0 * place[3])
+            of(slot, place, particles.velocity[slot], particles.force[slot][3], 2.0 * place[3])
         });
         let of_clumps = (0..clumps.len()).map(|it| {
-            of(clumps.position[it], clumps.velocity[it], clumps.force[it][3], self.medium.diameter(clumps, it))
+            let (body, diameter) = (particles.len() + it, self.medium.diameter(clumps, it));
+            of(body, clumps.position[it], clumps.velocity[it], clumps.force[it][3], diameter)
         });
         of_particles.chain(of_clumps).fold(0.0, f64::max)
     }

@@ -211,6 +211,18 @@ pub enum RunError {
         /// Time \[s\].
         time: f64,
     },
+    /// More heat was taken from a body than it had.
+    #[error(
+        "{body} has a temperature of {temperature:.3e} K at t = {time} s: a [heat_source] or an applied heat takes more than it has; \
+         take less, or for a shorter time", time = plain(*time))]
+    Cold {
+        /// The body.
+        body: String,
+        /// Its temperature \[K\].
+        temperature: f64,
+        /// Time \[s\].
+        time: f64,
+    },
     /// A triangle of a mesh whose nodes the outside moves has no area any more.
     #[error(
         "boundary {boundary}: expected displacements that leave every face its area, found face {face} without one \

@@ -128,7 +128,10 @@ impl Simulation {
             return Ok((underway.elapsed(), Ok(())));
         }
         fluid::renew(self.medium.as_ref(), &self.scene, &mut self.state, &standing);
-        let looks = || self.check_domain().and_then(|()| self.check_plane()).and_then(|()| self.check_books());
+        let looks = || {
+            self.check_domain().and_then(|()| self.check_plane()).and_then(|()| self.check_books())?;
+            self.check_temperatures()
+        };
         Ok((underway.elapsed(), result.and_then(|()| looks())))
     }
 

@@ -64,7 +64,7 @@ impl Simulation {
             search: neighbours::Search::of(&scene),
             passing: Passing::of(&scene),
             suppression: Suppression::of(&scene),
-            width: Width::widest(),
+            width: scene.run.width.unwrap_or_else(Width::widest),
             workers: Workers::new(scene.run.threads, most_particles(&scene)),
             scene,
             state,

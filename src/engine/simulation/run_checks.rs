@@ -6,6 +6,7 @@ use crate::engine::bodies;
 use crate::engine::boundaries::passing::MovedParticles;
 use crate::engine::integration::kick;
 use crate::engine::run_error::Cause;
+use crate::engine::state::heat::BoundaryHeat;
 use crate::engine::state::{Clock, GONE, Particles};
 use crate::laws::motion::InputCourse;
 use crate::laws::surface;
@@ -163,6 +164,21 @@ impl Simulation {
         Err(RunError::Books { time: self.time(), cause: self.step_or_unidentified() })
     }
 
+    /// Finds a body that is colder than any can be: more heat was taken from it than it had.
+    pub(super) fn check_temperatures(&self) -> Result<(), RunError> {
+        let Some(heat) = &self.state.heat else { return Ok(()) };
+        let cold = |temperature: f64| temperature <= 0.0;
+        let particle = (0..heat.capacity.len()).find(|&it| heat.capacity[it] > 0.0 && cold(heat.temperature(it)));
+        let (body, temperature) = if let Some(index) = particle {
+            (format!("particle {}", self.number(index as u32)), heat.temperature(index))
+        } else {
+            let held = |it: &BoundaryHeat| it.capacity > 0.0 && cold(it.temperature());
+            let Some(boundary) = heat.boundaries.iter().position(held) else { return Ok(()) };
+            (format!("[boundary.{}]", self.scene.boundaries[boundary].name), heat.boundaries[boundary].temperature())
+        };
+        Err(RunError::Cold { body, temperature, time: self.time() })
+    }
+
     /// Finds a particle that a group of particles went over in a time step of this length \[s\].
     pub(super) fn check_groups(&self, step: f64) -> Result<(), RunError> {
         let Some((slot, group)) = self.passing.through_groups(&self.state, step) else { return Ok(()) };
@@ -242,6 +258,7 @@ impl Simulation {
             | RunError::SurfaceRunaway { .. }
             | RunError::Turn { .. }
             | RunError::Frozen { .. }
+            | RunError::Cold { .. }
             | RunError::PutAtPlane { .. }
             | RunError::Invalid { .. }
             | RunError::Stopped { .. }

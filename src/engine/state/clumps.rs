@@ -4,6 +4,7 @@ use super::check::{FINITE, StateFault, all_finite, demand, demand_all, finite};
 use super::in_place::clone_in_place;
 use super::number::keep;
 use super::{GONE, IMAGE, InsertedParticle, Particles, Row, State, plain};
+use crate::base::number::Vector;
 use serde::{Deserialize, Serialize};
 
 /// Clumps by ascending number, rows of 32 bytes.
@@ -179,6 +180,8 @@ pub(crate) struct Grain<'a> {
     pub(crate) position: &'a Row,
     /// Velocity \[m/s\] and mass \[kg\].
     pub(crate) velocity: &'a Row,
+    /// Force on it \[N\].
+    pub(crate) force: &'a Row,
     /// Index of the particle, or of the first sphere.
     pub(crate) index: u32,
 }
@@ -190,13 +193,34 @@ impl State {
         let loose = particles.slots().filter(|&slot| self.clump(slot).is_none()).map(|slot| Grain {
             position: &particles.position[slot],
             velocity: &particles.velocity[slot],
+            force: &particles.force[slot],
             index: particles.id[slot],
         });
         loose.chain((0..clumps.len()).map(|clump| Grain {
             position: &clumps.position[clump],
             velocity: &clumps.velocity[clump],
+            force: &clumps.force[clump],
             index: clumps.spheres_of(clump)[0],
         }))
+    }
+
+    /// Where a grain has come to without being brought back into a periodic cell; elsewhere where it is \[m\].
+    pub(crate) fn unwrapped_grain(&self, grain: &Grain) -> [f64; 3] {
+        let [x, y, z, _] = *grain.position;
+        let Some(cell) = &self.cell else { return [x, y, z] };
+        let [u, v, w] = cell.displacement(grain.index);
+        [x + u, y + v, z + w]
+    }
+
+    /// Velocity \[m/s\] and mass \[kg\] of the grain of which the particle in a slot is.
+    pub(crate) fn velocity_of_grain(&self, slot: usize) -> Row {
+        self.clump(slot).map_or(self.particles.velocity[slot], |clump| self.clumps.velocity[clump])
+    }
+
+    /// The way from the centre of the sphere of a clump in a slot to the mass centre \[m\].
+    pub(crate) fn inward(&self, slot: usize) -> Option<Vector> {
+        let clump = self.clump(slot)?;
+        Some(Vector::from(self.clumps.position[clump]) - self.particles.position[slot].into())
     }
 
     /// Appends a clump of this number and its spheres. `turning`: whether particles have an orientation.

@@ -38,6 +38,12 @@ pub struct FluidState {
     pub pressure_gradient: Course,
     /// Temperature \[K\], along x; empty where no heat flows into it.
     pub temperature: Course,
+    /// How fast its velocity changed at each place in the last time step \[m/s²\]; empty without added mass.
+    #[serde(with = "super::plain")]
+    pub acceleration: Vec<Row>,
+    /// Lift on each particle, slot by slot, and then on each clump, as present loads hold it \[N\]; empty where nothing lifts.
+    #[serde(with = "super::plain")]
+    pub lift: Vec<Row>,
     /// Part of each cell that no particle fills, at the last communication point; empty without a grid.
     #[serde(with = "super::plain")]
     pub porosity: Vec<f64>,
@@ -70,6 +76,8 @@ clone_in_place!(FluidState {
     velocity,
     pressure_gradient,
     temperature,
+    acceleration,
+    lift,
     porosity,
     step,
     exchanged,
@@ -240,7 +248,7 @@ impl FluidState {
     /// Whether it can be one.
     pub(super) fn check(&self) -> Result<(), StateFault> {
         let Self { velocity, pressure_gradient, temperature, porosity, step, .. } = self;
-        let Self { exchanged, mean, heat, mean_heat, coming, work, impulse, .. } = self;
+        let Self { exchanged, mean, heat, mean_heat, coming, work, impulse, acceleration, lift, .. } = self;
         let count = velocity.now.len();
         velocity.check(count)?;
         pressure_gradient.check(pressure_gradient.now.len())?;
@@ -248,7 +256,7 @@ impl FluidState {
         let there = [exchanged.len(), mean.len(), coming.rows.len()] == [self.rows() * count; 3]
             && [heat.len(), mean_heat.len()] == [temperature.now.len(); 2];
         demand(there, "fluid", exchanged.len(), "rows for each cell of its grid")?;
-        let rows = [exchanged, mean, heat, mean_heat, &coming.rows];
+        let rows = [exchanged, mean, heat, mean_heat, acceleration, lift, &coming.rows];
         rows.into_iter().try_for_each(|rows| all_finite(rows.as_flattened(), "fluid"))?;
         all_finite(porosity, "fluid")?;
         let Booked { work: now, taken, on_free, moved } = coming.booked;
@@ -263,7 +271,7 @@ impl FluidState {
     pub(super) fn check_same(&self, other: &Self) -> Result<(), StateFault> {
         let lengths = |it: &Self| {
             let given = [&it.velocity, &it.pressure_gradient, &it.temperature].map(|course| course.now.len());
-            (given, it.porosity.len())
+            (given, [it.porosity.len(), it.acceleration.len()])
         };
         demand(lengths(self) == lengths(other), "fluid", self.velocity.now.len(), "as many cells as the scene has")
     }

@@ -1,5 +1,6 @@
 //! Particles that come bring their temperature, those that go take their heat along.
 
+use super::flows::{Body, body};
 use crate::engine::state::{GONE, Heat, State};
 use crate::laws::column::TEMPERATURE;
 use crate::scene::Scene;
@@ -16,10 +17,10 @@ pub(super) fn extend(heat: &mut Heat, count: usize, own: usize) {
 /// Books the heat of particles that have gone, and begins with those that came.
 pub(super) fn renew(scene: &Scene, state: &mut State) {
     let Some(column) = scene.column(TEMPERATURE.name) else { return };
-    let State { particles, clumps, heat, boundaries, .. } = state;
-    let Some(heat) = heat.as_mut() else { return };
+    let Some(mut heat) = state.heat.take() else { return };
+    let particles = &state.particles;
     let (count, own) = (particles.slot.len(), scene.particles.len());
-    extend(heat, count, own);
+    extend(&mut heat, count, own);
     for index in 0..count {
         let slot = particles.slot[index];
         let is_new = index >= own && slot != GONE && heat.numbers[index - own] != particles.numbers[index - own];
@@ -31,12 +32,11 @@ pub(super) fn renew(scene: &Scene, state: &mut State) {
             let slot = slot as usize;
             heat.numbers[index - own] = particles.numbers[index - own];
             heat.initial[index] = particles.declared[column][slot];
-            // The first sphere of a clump stands for it.
-            let clump = particles.group(slot).and_then(|group| group.checked_sub(boundaries.len()));
-            let stands = clump.is_none_or(|clump| clumps.spheres_of(clump)[0] as usize == index);
+            let stands = matches!(body(state, slot), Body::Particle(own) if own == index);
             let specific = scene.materials[particles.material[slot] as usize].thermal.specific_heat;
-            let mass = clump.map_or(particles.velocity[slot][3], |clump| clumps.velocity[clump][3]);
+            let mass = state.velocity_of_grain(slot)[3];
             heat.capacity[index] = if stands { mass * specific.unwrap_or(0.0) } else { 0.0 };
         }
     }
+    state.heat = Some(heat);
 }

@@ -94,8 +94,8 @@ const GRADIENT: Row = Row {
 const MEAN_DRAG: Row = Row {
     name: "mean_drag",
     each: Each::FluidAxis,
-    description: "drag of the particles on {owner} along {axis}, mean over the last communication step, without the force of its \
-                  pressure gradient (buoyancy)",
+    description: "drag of the particles on {owner} along {axis}, lift and added mass in it, mean over the last communication step, without \
+                  the force of its pressure gradient (buoyancy)",
     quantity: Quantity::Force,
     exists: |scene, _| is(scene, |fluid| fluid.grid.is_none()),
     follows_inputs_at_start: false,
@@ -179,7 +179,7 @@ pub(super) static OF_FLUID: [Row; 9] = [
     Row {
         name: "work",
         each: Each::Fluid,
-        description: "work of {owner} since the start: of drag along its own velocity, of buoyancy along those of the particles",
+        description: "work of {owner} since the start: of drag along its own velocity, of other forces along those of the particles",
         quantity: Quantity::Energy,
         follows_inputs_at_start: false,
         read: |now, _| of(now, |fluid| fluid.work),
@@ -219,8 +219,8 @@ pub(super) static OF_FLUID_CELLS: [Row; 10] = [
     },
     Row {
         each: Each::FluidCellAxis,
-        description: "drag of the particles on {owner} in cell {element} along {axis}, by their weights between centres, mean over the last \
-                      communication step, without the force of its pressure gradient (buoyancy)",
+        description: "drag of the particles on {owner} in cell {element} along {axis}, lift and added mass in it, by their weights between \
+                      centres, mean over the last communication step, without the force of its pressure gradient (buoyancy)",
         exists: |_, _| true,
         ..MEAN_DRAG
     },

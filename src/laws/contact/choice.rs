@@ -68,7 +68,7 @@ impl LawChoice {
 
     /// What speaks against the combination, if anything.
     pub fn objection(&self) -> Option<Objection> {
-        if let Some(objection) = self.normal.objection() {
+        if let Some(objection) = self.normal.objection().or_else(|| self.rolling.objection()) {
             return Some(objection);
         }
         let (normal, friction) = (&self.normal.row().does, self.tangential.row());

@@ -213,6 +213,10 @@ pub trait Rolling: Coefficients {
     const TAKES_OVERLAP: bool = false;
     /// Whether it takes k_t of the normal model, whatever the tangential model does.
     const TAKES_TANGENTIAL_STIFFNESS: bool = false;
+    /// What speaks against these keys, if anything.
+    fn objection(_keys: &Self::Keys) -> Option<Objection> {
+        None
+    }
     /// Whether these keys keep the direction of the torque as the engine does.
     fn is_engine_exact(_keys: &Self::Keys) -> bool {
         false

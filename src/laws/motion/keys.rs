@@ -1,12 +1,12 @@
 //! `motion` of a boundary as the scene writes it.
 
 use super::{AxisMotion, Schedule, Servo, Table, TableKeys};
+use crate::base::document::{Forms, several_forms};
 use crate::base::quantity::Finite;
+use serde::Deserialize;
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Error, MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Unexpected};
 use std::collections::BTreeMap;
-use std::fmt;
 use std::sync::Arc;
 
 /// A way to move: along a coordinate axis, or about one.
@@ -67,44 +67,31 @@ enum Law {
     Table,
 }
 
-impl<'de> Deserialize<'de> for PrescribedMotion {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a number or a table.
-        struct NumberOrTable;
-        /// What is expected.
-        const EXPECTED: &str = "a velocity, { sine = { amplitude, frequency } }, { trapezoid = { distance, speed, acceleration } } or { table = \"motion.csv\" }";
-        impl<'de> Visitor<'de> for NumberOrTable {
-            type Value = PrescribedMotion;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<PrescribedMotion, E> {
-                let velocity =
-                    Finite::new(value).map(|velocity| PrescribedMotion::Here(AxisMotion::Prescribed(velocity.get())));
-                velocity.ok_or_else(|| E::custom(format!("expected a finite number, found {value:?}")))
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<PrescribedMotion, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<PrescribedMotion, A::Error> {
-                let scheduled = |schedule| PrescribedMotion::Here(AxisMotion::Scheduled(schedule));
-                let Some(law) = map.next_key()? else {
-                    return Err(A::Error::custom(format!("expected {EXPECTED}, found an empty table")));
-                };
-                let motion = match law {
-                    Law::Sine => scheduled(Schedule::Sine(map.next_value()?)),
-                    Law::Trapezoid => scheduled(Schedule::Trapezoid(map.next_value()?)),
-                    Law::Table => PrescribedMotion::Table(map.next_value()?),
-                };
-                match map.next_key::<String>()? {
-                    None => Ok(motion),
-                    Some(more) => Err(A::Error::custom(format!("expected one law, found {more} beside another one"))),
-                }
-            }
+impl Forms for PrescribedMotion {
+    const EXPECTED: &'static str = "a velocity, { sine = { amplitude, frequency } }, { trapezoid = { distance, speed, acceleration } } or { table = \"motion.csv\" }";
+
+    fn number<E: Error>(value: f64, _written: Unexpected) -> Result<Self, E> {
+        let velocity = Finite::new(value).map(|velocity| Self::Here(AxisMotion::Prescribed(velocity.get())));
+        velocity.ok_or_else(|| E::custom(format!("expected a finite number, found {value:?}")))
+    }
+
+    fn table<'de, A: MapAccess<'de>>(mut map: A) -> Result<Self, A::Error> {
+        let scheduled = |schedule| Self::Here(AxisMotion::Scheduled(schedule));
+        let Some(law) = map.next_key()? else {
+            return Err(A::Error::custom(format!("expected {}, found an empty table", Self::EXPECTED)));
+        };
+        let motion = match law {
+            Law::Sine => scheduled(Schedule::Sine(map.next_value()?)),
+            Law::Trapezoid => scheduled(Schedule::Trapezoid(map.next_value()?)),
+            Law::Table => Self::Table(map.next_value()?),
+        };
+        match map.next_key::<String>()? {
+            None => Ok(motion),
+            Some(more) => Err(A::Error::custom(format!("expected one law, found {more} beside another one"))),
         }
-        deserializer.deserialize_any(NumberOrTable)
     }
 }
+several_forms!(PrescribedMotion);
 
 /// The axes by what they do.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -151,33 +138,26 @@ enum By {
 #[derive(Clone, Debug, Default)]
 struct Loads(BTreeMap<Axis, Finite>);
 
-impl<'de> Deserialize<'de> for Loads {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a list or a table.
-        struct ListOrTable;
-        impl<'de> Visitor<'de> for ListOrTable {
-            type Value = Loads;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a list of axes, or a table of axes and the load [N, N m] that each starts with")
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Loads, A::Error> {
-                let axes = Vec::<Axis>::deserialize(SeqAccessDeserializer::new(list))?;
-                let mut loads = BTreeMap::new();
-                for axis in axes {
-                    if loads.insert(axis, Finite::default()).is_some() {
-                        let axis = AxisMotion::WORDS[axis as usize];
-                        return Err(A::Error::custom(format!("expected each axis once, found {axis} twice")));
-                    }
-                }
-                Ok(Loads(loads))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Loads, A::Error> {
-                BTreeMap::deserialize(MapAccessDeserializer::new(map)).map(Loads)
+impl Forms for Loads {
+    const EXPECTED: &'static str = "a list of axes, or a table of axes and the load [N, N m] that each starts with";
+
+    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let axes = Vec::<Axis>::deserialize(SeqAccessDeserializer::new(list))?;
+        let mut loads = BTreeMap::new();
+        for axis in axes {
+            if loads.insert(axis, Finite::default()).is_some() {
+                let axis = AxisMotion::WORDS[axis as usize];
+                return Err(A::Error::custom(format!("expected each axis once, found {axis} twice")));
             }
         }
-        deserializer.deserialize_any(ListOrTable)
+        Ok(Self(loads))
+    }
+
+    fn table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        BTreeMap::deserialize(MapAccessDeserializer::new(map)).map(Self)
     }
 }
+several_forms!(Loads);
 
 impl Keys {
     /// What each axis does, and those that are named twice; `read` finds the table of an axis.
@@ -212,27 +192,18 @@ impl Keys {
     }
 }
 
-impl<'de> Deserialize<'de> for Keys {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes `"fixed"` or a table.
-        struct WordOrTable;
-        /// What is expected.
-        const EXPECTED: &str = "\"fixed\" or a table of conveying, driven, prescribed, free, loaded and servo axes";
-        impl<'de> Visitor<'de> for WordOrTable {
-            type Value = Keys;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<Keys, E> {
-                match word {
-                    "fixed" => Ok(Keys::default()),
-                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
-                }
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Keys, A::Error> {
-                Names::deserialize(MapAccessDeserializer::new(map)).map(Keys)
-            }
+impl Forms for Keys {
+    const EXPECTED: &'static str = "\"fixed\" or a table of conveying, driven, prescribed, free, loaded and servo axes";
+
+    fn word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "fixed" => Ok(Self::default()),
+            _ => Err(Self::refused(word)),
         }
-        deserializer.deserialize_any(WordOrTable)
+    }
+
+    fn table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        Names::deserialize(MapAccessDeserializer::new(map)).map(Self)
     }
 }
+several_forms!(Keys);

@@ -1,10 +1,10 @@
 //! `prescribed = { z = { table = .. } }`: a displacement in time, point by point.
 
 use super::{Motion, ShownVariables};
+use crate::base::document::{Forms, several_forms};
+use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
-use std::fmt;
+use serde::de::{Error, MapAccess};
 
 /// What a table does between its rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -36,25 +36,18 @@ pub(crate) struct FileKeys {
 #[derive(Clone, Debug)]
 pub(crate) struct TableKeys(pub(crate) FileKeys);
 
-impl<'de> Deserialize<'de> for TableKeys {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a name or a table.
-        struct NameOrTable;
-        impl<'de> Visitor<'de> for NameOrTable {
-            type Value = TableKeys;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("the name of a file, or { file, time, column, interpolation }")
-            }
-            fn visit_str<E: Error>(self, file: &str) -> Result<TableKeys, E> {
-                Ok(TableKeys(FileKeys { file: file.to_owned(), ..FileKeys::default() }))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TableKeys, A::Error> {
-                FileKeys::deserialize(MapAccessDeserializer::new(map)).map(TableKeys)
-            }
-        }
-        deserializer.deserialize_any(NameOrTable)
+impl Forms for TableKeys {
+    const EXPECTED: &'static str = "the name of a file, or { file, time, column, interpolation }";
+
+    fn word<E: Error>(file: &str) -> Result<Self, E> {
+        Ok(Self(FileKeys { file: file.to_owned(), ..FileKeys::default() }))
+    }
+
+    fn table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        FileKeys::deserialize(MapAccessDeserializer::new(map)).map(Self)
     }
 }
+several_forms!(TableKeys);
 
 /// A displacement in time, from 0 at time 0 on; after its last row it stays.
 #[derive(Clone, Debug, PartialEq)]

@@ -217,6 +217,34 @@ impl Centres {
         weights
     }
 
+    /// What makes the derivatives along x, y and z \[1/m\] of the field between these cells: 0 in sum, and 0 along an axis where the value of
+    /// the outermost cell holds.
+    pub fn slopes(&self, point: Vector) -> [Weights; 3] {
+        let point = point.to_array();
+        let [nx, ny, _] = self.counts;
+        let strides = [1, nx, nx * ny];
+        let cells = [0, 1, 2].map(|axis| self.along(axis, point[axis]));
+        let slope = |axis: usize| {
+            let place = (point[axis] - self.corners[0][axis]) * self.per_length[axis] - 0.5;
+            let is_between = self.repeats[axis] || (0.0..(self.counts[axis] - 1) as f64).contains(&place);
+            if is_between { self.per_length[axis] } else { 0.0 }
+        };
+        [0, 1, 2].map(|along: usize| {
+            let mut weights = [(0, 1.0); 8];
+            for (place, (cell, weight)) in weights.iter_mut().enumerate() {
+                for axis in 0..3 {
+                    let ([first, second], share) = cells[axis];
+                    let is_second = place >> axis & 1 == 1;
+                    *cell += strides[axis] * if is_second { second } else { first };
+                    let [before, behind] =
+                        if axis == along { [-slope(axis), slope(axis)] } else { [1.0 - share, share] };
+                    *weight *= if is_second { behind } else { before };
+                }
+            }
+            weights
+        })
+    }
+
     /// The two cells along an axis between whose centres a place \[m\] lies, and the weight of the second.
     #[inline(always)]
     fn along(&self, axis: usize, place: f64) -> ([usize; 2], f64) {

@@ -1,15 +1,16 @@
 //! Wear by sliding under load.
 
 use super::{Rubbing, Wear};
+use crate::base::document::keys;
 use crate::base::quantity::Positive;
-use serde::Deserialize;
 
-/// `[boundary.<name>.wear.archard]`
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// Volume over normal force and sliding distance \[1/Pa\].
-    pub coefficient: Positive,
+keys! {
+    /// `[boundary.<name>.wear.archard]`
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Keys {
+        /// Volume over normal force and sliding distance, k \[1/Pa\].
+        pub coefficient: Positive = "required",
+    }
 }
 
 /// Wear by sliding under load.

@@ -1,19 +1,20 @@
 //! Wear by impacts that cut.
 
 use super::{Rubbing, Wear};
+use crate::base::document::keys;
 use crate::base::quantity::Positive;
-use serde::Deserialize;
 
-/// `[boundary.<name>.wear.finnie]`
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// Plastic flow stress of the surface \[Pa\].
-    pub flow_stress: Positive,
-    /// Length of the contact over the depth of the cut.
-    pub depth_ratio: Option<Positive>,
-    /// Vertical over horizontal force at the cutting edge.
-    pub force_ratio: Option<Positive>,
+keys! {
+    /// `[boundary.<name>.wear.finnie]`
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Keys {
+        /// Plastic flow stress of the surface, p \[Pa\].
+        pub flow_stress: Positive = "required",
+        /// Length of the contact over the depth of the cut, ψ.
+        pub depth_ratio: Option<Positive> = "2",
+        /// Vertical over horizontal force at the cutting edge, K.
+        pub force_ratio: Option<Positive> = "2",
+    }
 }
 
 /// ψ and K of Finnie (1960).

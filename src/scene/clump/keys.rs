@@ -2,16 +2,15 @@
 
 use super::ClumpShape;
 use super::union::moments;
-use crate::base::document::{Mistake, keys};
+use crate::base::document::{Forms, Mistake, keys, several_forms};
 use crate::base::geometry::Quaternion;
 use crate::base::geometry::principal::principal;
 use crate::base::number::Vector;
 use crate::base::quantity::{Numbers, Positive, Triple};
 use crate::scene::file::Inertia;
+use serde::Deserialize;
 use serde::de::{Error, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
 use std::f64::consts::TAU;
-use std::fmt;
 
 /// Most spheres that a clump may have.
 const MOST_SPHERES: usize = 256;
@@ -157,35 +156,25 @@ fn any_turn(uniform: &mut dyn FnMut() -> f64) -> Quaternion {
     Quaternion { scalar: far * libm::cos(TAU * other), vector }.normalised()
 }
 
-/// What is expected.
-const ORIENTATION: &str = "a quaternion [w, x, y, z] that is not zero, \"random\" or \"principal_axes\"";
+impl Forms for OrientationKey {
+    const EXPECTED: &'static str = "a quaternion [w, x, y, z] that is not zero, \"random\" or \"principal_axes\"";
 
-impl<'de> Deserialize<'de> for OrientationKey {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a word or a list.
-        struct WordOrList;
-        impl<'de> Visitor<'de> for WordOrList {
-            type Value = OrientationKey;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(ORIENTATION)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<OrientationKey, E> {
-                match word {
-                    "random" => Ok(OrientationKey::Random),
-                    "principal_axes" => Ok(OrientationKey::PrincipalAxes),
-                    _ => Err(E::custom(format!("expected {ORIENTATION}, found {word:?}"))),
-                }
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<OrientationKey, A::Error> {
-                let parts: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|part| part.get()).collect();
-                let refused = || A::Error::custom(format!("expected {ORIENTATION}, found {parts:?}"));
-                let row = <[f64; 4]>::try_from(&parts[..]).map_err(|_| refused())?;
-                unit(row).map(OrientationKey::Turned).ok_or_else(refused)
-            }
+    fn word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "random" => Ok(Self::Random),
+            "principal_axes" => Ok(Self::PrincipalAxes),
+            _ => Err(Self::refused(word)),
         }
-        deserializer.deserialize_any(WordOrList)
+    }
+
+    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let parts: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|part| part.get()).collect();
+        let refused = || Self::refused(&parts);
+        let row = <[f64; 4]>::try_from(&parts[..]).map_err(|_| refused())?;
+        unit(row).map(Self::Turned).ok_or_else(refused)
     }
 }
+several_forms!(OrientationKey);
 
 /// The unit quaternion of the same turn; none of zero.
 pub(in crate::scene) fn unit(row: [f64; 4]) -> Option<[f64; 4]> {

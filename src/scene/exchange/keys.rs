@@ -1,16 +1,15 @@
 //! `[insertion.<name>]`, `[outlet.<name>]`, `[flow_meter.<name>]` as a scene writes them.
 
 use super::Polygon;
-use crate::base::document::{Mistake, keys};
+use crate::base::document::{Forms, Mistake, keys, several_forms};
 use crate::base::quantity::{NonNegative, Positive, Triple};
 use crate::laws::surface::direction;
 use crate::scene::clump::OrientationKey;
 use crate::scene::sizes::SizesKeys;
+use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, MapAccess};
 use std::collections::BTreeMap;
-use std::fmt;
 
 /// The key that is wrong, and why.
 type Wrong = (&'static str, Mistake);
@@ -112,25 +111,18 @@ pub(crate) enum BeyondKeys {
     Plane(PlaneKeys),
 }
 
-impl<'de> Deserialize<'de> for BeyondKeys {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a name or a table.
-        struct NameOrTable;
-        impl<'de> Visitor<'de> for NameOrTable {
-            type Value = BeyondKeys;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("the name of a boundary, or { point, normal }")
-            }
-            fn visit_str<E: Error>(self, name: &str) -> Result<BeyondKeys, E> {
-                Ok(BeyondKeys::Boundary(name.to_owned()))
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<BeyondKeys, A::Error> {
-                PlaneKeys::deserialize(MapAccessDeserializer::new(map)).map(BeyondKeys::Plane)
-            }
-        }
-        deserializer.deserialize_any(NameOrTable)
+impl Forms for BeyondKeys {
+    const EXPECTED: &'static str = "the name of a boundary, or { point, normal }";
+
+    fn word<E: Error>(name: &str) -> Result<Self, E> {
+        Ok(Self::Boundary(name.to_owned()))
+    }
+
+    fn table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
+        PlaneKeys::deserialize(MapAccessDeserializer::new(map)).map(Self::Plane)
     }
 }
+several_forms!(BeyondKeys);
 
 /// `beyond = { point, normal }`
 #[derive(Clone, Copy, Debug, Deserialize)]

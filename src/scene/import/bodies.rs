@@ -1,6 +1,8 @@
 //! What the rows of a file are: which columns say something about them, and what these mean.
 
-use super::{DIGITS, FileBox, FileFault, Request, Rows, agree, largest};
+use super::file_box::Bounds;
+use super::rows::{DIGITS, agree, largest};
+use super::{FileBox, FileFault, Request, Rows};
 use crate::base::document::Mistake;
 use crate::base::geometry::Lattice;
 use crate::base::vtk_reader::Array;
@@ -125,7 +127,7 @@ pub(super) fn cell_of(field: &Array) -> Result<FileBox, Vec<FileFault>> {
         let mistake = Mistake::Unexpected { found, expected };
         return Err(vec![FileFault { line: None, column: CELL.to_owned(), mistake }]);
     };
-    let lattice = super::Bounds { low, edges: [a, b, c] }.lattice(None)?;
+    let lattice = Bounds { low, edges: [a, b, c] }.lattice(None)?;
     let lattice = Lattice { periodic: repeats.map(|flag| flag != 0.0), ..lattice };
     Ok(FileBox { lattice, is_told: true, line: None, is_crossed: false })
 }

@@ -1,6 +1,7 @@
 //! Particles from comma-separated columns: a line of names, then a line for each particle.
 
-use super::{FileFault, REPORTED, Request, Rows, twice};
+use super::rows::twice;
+use super::{FileFault, REPORTED, Request, Rows};
 use crate::base::document::Mistake;
 use csv::{ByteRecord, ReaderBuilder, Trim};
 

@@ -1,6 +1,8 @@
 //! Data files of LIGGGHTS and LAMMPS (`read_data`, `write_data`) with spheres.
 
-use super::{Bounds, FileBox, FileFault, REPORTED, Request, Rows, non_spherical};
+use super::fault::non_spherical;
+use super::file_box::Bounds;
+use super::{FileBox, FileFault, REPORTED, Request, Rows};
 use crate::base::document::Mistake;
 use std::collections::BTreeMap;
 

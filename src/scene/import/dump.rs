@@ -1,6 +1,9 @@
 //! Dump files of LIGGGHTS and LAMMPS in text form: one or more snapshots of named columns.
 
-use super::{Bounds, DIGITS, FileBox, FileFault, REPORTED, Request, Rows, crossed, largest, non_spherical};
+use super::fault::{crossed, non_spherical};
+use super::file_box::Bounds;
+use super::rows::{DIGITS, largest};
+use super::{FileBox, FileFault, REPORTED, Request, Rows};
 use crate::base::document::Mistake;
 use crate::base::geometry::Lattice;
 

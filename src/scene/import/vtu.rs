@@ -1,7 +1,8 @@
 //! Particles from VTK files: points of an unstructured grid or of polygonal data, and arrays of point data.
 
 use super::bodies::{Bodies, CELL, UNWRAPPED, cell_of};
-use super::{FileFault, Request, Rows, twice};
+use super::rows::twice;
+use super::{FileFault, Request, Rows};
 use crate::base::document::Mistake;
 use crate::base::vtk_reader::{self, Array, Piece, Wanted};
 use std::cell::RefCell;

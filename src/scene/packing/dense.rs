@@ -10,6 +10,7 @@ use super::region::Region;
 use super::relaxation::{Crowd, MARGIN, Overlaps};
 use super::{MOST, Sphere};
 use crate::base::document::Mistake;
+use crate::scene::Particle;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
 
@@ -38,7 +39,13 @@ pub(super) fn dense(
         let (found, expected) = (format!("{solid_fraction:?}"), format!("a number above 0 and at most {DENSEST}"));
         return Err(("packing.solid_fraction", Mistake::Unexpected { found, expected }));
     }
-    let key = radii.key();
+    let (key, long) = (radii.key(), region.size().into_iter().fold(0.0, f64::max));
+    // Wherever the region lies, an end of it is so far away; drawing and placing millions of spheres first would take minutes.
+    if long > 2.0 * Particle::farthest(radii.least()) {
+        let found = format!("a region {long:?} m long, whose ends are so far away that numbers are too coarse");
+        let expected = format!("a region of at most {:.1e} m for this radius", 2.0 * Particle::farthest(radii.least()));
+        return Err((key, Mistake::Unexpected { found, expected }));
+    }
     let radii = drawn(region.volume() * solid_fraction, radii, random)?;
     let width = region.width();
     let largest = radii.iter().copied().fold(0.0, f64::max);

@@ -1,11 +1,10 @@
 //! Lattices and random packings as a scene writes them.
 
-use crate::base::document::keys;
+use crate::base::document::{Forms, keys, several_forms};
 use crate::base::quantity::{Corners, Counts, Fraction, Numbers, Positive, Triple};
 use crate::scene::sizes::SizesKeys;
-use serde::de::{Error, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
-use std::fmt;
+use serde::Deserialize;
+use serde::de::{Error, SeqAccess, Unexpected, Visitor};
 use std::num::NonZeroU32;
 
 keys! {
@@ -77,32 +76,19 @@ pub(crate) struct CylinderTable {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Radii(pub(crate) [f64; 2]);
 
-impl<'de> Deserialize<'de> for Radii {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a number or a list.
-        struct OneOrTwo;
-        /// What is expected.
-        const EXPECTED: &str = "a number above 0, or [least, largest]";
-        impl<'de> Visitor<'de> for OneOrTwo {
-            type Value = Radii;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
-                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
-                Positive::new(value).map(|radius| Radii([radius.get(); 2])).ok_or_else(refused)
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radii, A::Error> {
-                let radii = Numbers.visit_seq(list)?;
-                match radii.iter().map(|radius| radius.get()).collect::<Vec<_>>()[..] {
-                    [least, most] if least > 0.0 && least <= most => Ok(Radii([least, most])),
-                    ref found => Err(A::Error::custom(format!("expected {EXPECTED}, found {found:?}"))),
-                }
-            }
+impl Forms for Radii {
+    const EXPECTED: &'static str = "a number above 0, or [least, largest]";
+
+    fn number<E: Error>(value: f64, _written: Unexpected) -> Result<Self, E> {
+        Positive::new(value).map(|radius| Self([radius.get(); 2])).ok_or_else(|| Self::refused(value))
+    }
+
+    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let radii = Numbers.visit_seq(list)?;
+        match radii.iter().map(|radius| radius.get()).collect::<Vec<_>>()[..] {
+            [least, most] if least > 0.0 && least <= most => Ok(Self([least, most])),
+            ref found => Err(Self::refused(found)),
         }
-        deserializer.deserialize_any(OneOrTwo)
     }
 }
+several_forms!(Radii);

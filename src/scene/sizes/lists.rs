@@ -1,76 +1,49 @@
 //! Lists in `sizes`.
 
+use crate::base::document::{Forms, several_forms};
 use crate::base::quantity::{Numbers, Positive};
-use serde::de::{Error, SeqAccess, Visitor};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{Error, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer};
-use std::fmt;
 
 /// One name or several.
 #[derive(Clone, Debug)]
 pub(in crate::scene) struct Names(pub(in crate::scene) Vec<String>);
 
-impl<'de> Deserialize<'de> for Names {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a word or a list.
-        struct OneOrMore;
-        /// What is expected.
-        const EXPECTED: &str = "the name of a clump, or a list of such names";
-        impl<'de> Visitor<'de> for OneOrMore {
-            type Value = Names;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_str<E: Error>(self, name: &str) -> Result<Names, E> {
-                Ok(Names(vec![name.to_owned()]))
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Names, A::Error> {
-                let mut names = Vec::new();
-                while let Some(name) = list.next_element()? {
-                    names.push(name);
-                }
-                if names.is_empty() {
-                    return Err(A::Error::custom(format!("expected {EXPECTED}, found []")));
-                }
-                Ok(Names(names))
-            }
-        }
-        deserializer.deserialize_any(OneOrMore)
+impl Forms for Names {
+    const EXPECTED: &'static str = "the name of a clump, or a list of such names";
+
+    fn word<E: Error>(name: &str) -> Result<Self, E> {
+        Ok(Self(vec![name.to_owned()]))
+    }
+
+    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let names = Vec::<String>::deserialize(SeqAccessDeserializer::new(list))?;
+        if names.is_empty() { Err(Self::refused(&names)) } else { Ok(Self(names)) }
     }
 }
+several_forms!(Names);
 
 /// One radius or several \[m\].
 #[derive(Clone, Debug)]
 pub(in crate::scene) struct Radii(pub(in crate::scene) Vec<f64>);
 
-impl<'de> Deserialize<'de> for Radii {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a number or a list.
-        struct OneOrMore;
-        /// What is expected.
-        const EXPECTED: &str = "a number above 0, or a list of such numbers";
-        impl<'de> Visitor<'de> for OneOrMore {
-            type Value = Radii;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Radii, E> {
-                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
-                Positive::new(value).map(|radius| Radii(vec![radius.get()])).ok_or_else(refused)
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Radii, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Radii, A::Error> {
-                let radii: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|radius| radius.get()).collect();
-                if radii.is_empty() || radii.iter().any(|radius| *radius <= 0.0) {
-                    return Err(A::Error::custom(format!("expected {EXPECTED}, found {radii:?}")));
-                }
-                Ok(Radii(radii))
-            }
+impl Forms for Radii {
+    const EXPECTED: &'static str = "a number above 0, or a list of such numbers";
+
+    fn number<E: Error>(value: f64, _written: Unexpected) -> Result<Self, E> {
+        Positive::new(value).map(|radius| Self(vec![radius.get()])).ok_or_else(|| Self::refused(value))
+    }
+
+    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        let radii: Vec<f64> = Numbers.visit_seq(list)?.iter().map(|radius| radius.get()).collect();
+        if radii.is_empty() || radii.iter().any(|radius| *radius <= 0.0) {
+            return Err(Self::refused(radii));
         }
-        deserializer.deserialize_any(OneOrMore)
+        Ok(Self(radii))
     }
 }
+several_forms!(Radii);
 
 /// Shares of classes, of any sum above 0.
 #[derive(Clone, Debug)]

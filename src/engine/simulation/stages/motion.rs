@@ -37,6 +37,18 @@ impl Simulation {
         }
     }
 
+    /// Whether added mass is carried by a fluid whose velocity changes in time.
+    pub(super) fn is_fluid_accelerated(&self) -> bool {
+        self.scene.fluid.as_ref().is_some_and(|fluid| fluid.added_mass.is_some() && fluid.velocity.changes())
+    }
+
+    /// Gives the half kick that is about to begin the step what it lacks of the acceleration of the fluid.
+    pub(super) fn accelerate_by_fluid(&mut self, step: &mut TimeStep) {
+        if let Some(medium) = &mut self.medium {
+            fluid::accelerate(medium, &self.scene, &mut self.state, &step.progress, step.context);
+        }
+    }
+
     /// Brings the velocity of the fluid to the end of the step.
     pub(super) fn advance_fluid(&mut self, step: &mut TimeStep) {
         if let (Some(fluid), Some(state)) = (&self.scene.fluid, &mut self.state.fluid) {

@@ -29,6 +29,14 @@ const MOTION: &[Stage] = &[
         run: Simulation::book_fluid_first,
     },
     Stage {
+        name: "acceleration of the fluid",
+        scenes: "added mass in a fluid whose velocity changes",
+        is_needed: Simulation::is_fluid_accelerated,
+        reads: &[Motions, Loads, Clumps, Fluid],
+        writes: &[Motions, Boundaries, Clumps, Fluid, Books],
+        run: Simulation::accelerate_by_fluid,
+    },
+    Stage {
         name: "first half kick and drift",
         scenes: "all",
         is_needed: |_| true,
@@ -253,7 +261,7 @@ const FORCES: &[Stage] = &[
         scenes: "groups, clumps, surfaces that forces move",
         is_needed: Simulation::has_bodies,
         reads: &[Places, Motions, Loads, Fluid],
-        writes: &[Boundaries, Clumps],
+        writes: &[Boundaries, Clumps, Fluid],
         run: |it, step| it.load_bodies(step.context),
     },
 ];

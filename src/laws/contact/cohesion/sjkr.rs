@@ -1,8 +1,8 @@
 //! Attraction in proportion to the section of the overlapping bodies.
 
 use super::attraction::Attraction;
+use crate::base::document::keys;
 use crate::laws::contact::{Cohesion, MaterialPair, Missing, property};
-use serde::Deserialize;
 
 /// A simplified JKR attraction: energy density times the area in which the bodies intersect.
 ///
@@ -25,13 +25,14 @@ use serde::Deserialize;
 #[derive(Clone, Copy, Debug)]
 pub struct Sjkr;
 
-/// `[contact.<law>.cohesion.<model>]` of both SJKR models.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// Whether the attraction lowers the limit of friction.
-    #[serde(default)]
-    pub tangential_reduce: bool,
+keys! {
+    /// `[contact.<law>.cohesion.<model>]` of both SJKR models.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// Whether the attraction lowers the limit of friction.
+        #[serde(default)]
+        pub tangential_reduce: bool = "`false`",
+    }
 }
 
 impl Keys {

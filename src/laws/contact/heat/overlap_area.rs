@@ -1,13 +1,12 @@
 //! Conduction by the area in which bodies overlap.
 
 use super::Spot;
+use crate::base::document::{Forms, keys, several_forms};
 use crate::base::number::Number;
 use crate::base::quantity::Positive;
 use crate::laws::contact::{Heat, MaterialPair, Missing, Needs, coefficients};
-use serde::de::{Error, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, Unexpected};
 use std::f64::consts::PI;
-use std::fmt;
 
 coefficients! {
     /// Conductance in proportion to the root of an area.
@@ -56,42 +55,30 @@ pub enum Area {
     Given(f64),
 }
 
-impl<'de> Deserialize<'de> for Area {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a number or a word.
-        struct NumberOrWord;
-        /// What is expected.
-        const EXPECTED: &str = "an area above 0 [m²] or \"projection\"";
-        impl Visitor<'_> for NumberOrWord {
-            type Value = Area;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Area, E> {
-                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
-                Positive::new(value).map(|area| Area::Given(area.get())).ok_or_else(refused)
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Area, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<Area, E> {
-                match word {
-                    "projection" => Ok(Area::Projection),
-                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
-                }
-            }
+impl Forms for Area {
+    const EXPECTED: &'static str = "an area above 0 [m²] or \"projection\"";
+
+    fn number<E: Error>(value: f64, _written: Unexpected) -> Result<Self, E> {
+        Positive::new(value).map(|area| Self::Given(area.get())).ok_or_else(|| Self::refused(value))
+    }
+
+    fn word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "projection" => Ok(Self::Projection),
+            _ => Err(Self::refused(word)),
         }
-        deserializer.deserialize_any(NumberOrWord)
     }
 }
+several_forms!(Area);
 
-/// `[contact.<law>.heat.overlap_area]`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// The area; absent: that in which the bodies intersect.
-    #[serde(default)]
-    pub area: Area,
+keys! {
+    /// `[contact.<law>.heat.overlap_area]`
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// A given area \[m²\], > 0, or `"projection"`.
+        #[serde(default)]
+        pub area: Area = "that in which the bodies intersect",
+    }
 }
 
 impl Heat for OverlapArea {

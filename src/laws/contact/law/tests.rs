@@ -1,13 +1,14 @@
 //! A law does what its sub-models do, one after another.
 
 use super::*;
+use crate::base::number::Vector;
 use crate::laws::contact::cohesion::sjkr;
 use crate::laws::contact::fixtures::{assert_close, contact, every_law, properties, with_pair};
 use crate::laws::contact::normal::hooke_stiffness;
 use crate::laws::contact::property;
 use crate::laws::contact::{
-    CohesionModel, NoKeys, NormalModel, Properties, RollingModel, TangentialModel, cohesion, normal, rolling,
-    tangential,
+    CohesionModel, Contact, NoKeys, NormalModel, Properties, Reaction, RollingModel, TangentialModel, cohesion, normal,
+    rolling, tangential,
 };
 
 /// Friction without memory.

@@ -64,6 +64,12 @@ impl<F> ModelRow<F> {
         (self.form)()
     }
 
+    /// The type of its keys.
+    #[cfg(test)]
+    pub(crate) fn keys(&self) -> TypeId {
+        (self.keys)()
+    }
+
     /// The sub-model with these keys, if they are of its type.
     pub fn with<K: ModelKeys>(&'static self, keys: K) -> Option<Model<F>> {
         ((self.keys)() == TypeId::of::<K>()).then(|| Model { row: self, keys: keep(keys) })

@@ -4,7 +4,9 @@ use super::{RollingModel, RollingRow, numbers};
 use crate::base::number::Row;
 use crate::laws::contact::batch::Run;
 use crate::laws::contact::functions::RollingFunction;
-use crate::laws::contact::{Contact, MaterialPair, Missing, Response, Rolling, RollingResponse, batch, functions};
+use crate::laws::contact::{
+    Contact, MaterialPair, Missing, Objection, Response, Rolling, RollingResponse, batch, functions,
+};
 use crate::laws::kept::{Kept, keep, own, read};
 use std::any::TypeId;
 
@@ -14,6 +16,8 @@ pub struct RollingFunctions {
     pub(in crate::laws::contact) takes_overlap: bool,
     /// Whether it takes k_t.
     pub(in crate::laws::contact) takes_tangential_stiffness: bool,
+    /// [`Rolling::objection`].
+    objection: fn(Kept) -> Option<Objection>,
     /// [`Rolling::is_engine_exact`].
     is_engine_exact: fn(Kept) -> bool,
     /// [`Rolling::between`].
@@ -47,6 +51,7 @@ impl RollingRow {
                 does: RollingFunctions {
                     takes_overlap: M::TAKES_OVERLAP,
                     takes_tangential_stiffness: M::TAKES_TANGENTIAL_STIFFNESS,
+                    objection: |keys| M::objection(own(keys)),
                     is_engine_exact: |keys| M::is_engine_exact(own(keys)),
                     between: |keys, pair| Ok(numbers(&M::between(pair, own(keys))?)),
                     response: |row, contact, response| M::read(row).response(contact, response),
@@ -75,6 +80,11 @@ impl RollingModel {
     /// The same, of keys that live as long as the program.
     pub const fn fixed<M: Rolling>(keys: &'static M::Keys) -> Self {
         Self { row: RollingRow::of::<M>(), keys }
+    }
+
+    /// What speaks against its keys, if anything.
+    pub(in crate::laws::contact) fn objection(&self) -> Option<Objection> {
+        (self.row.does.objection)(self.keys)
     }
 
     /// Whether its keys keep the direction of the torque as the engine does.

@@ -1,5 +1,6 @@
 //! Elasto-plastic spheres that stick where they were pressed.
 
+use crate::base::document::keys;
 use crate::base::number::{Number, Row};
 use crate::laws::contact::{
     Adhesion, Contact, FrictionNeeds, HistoryRow, MaterialPair, Missing, Needs, Normal, NormalForce, NormalForm,
@@ -94,20 +95,22 @@ pub enum AdhesionKind {
     Fixed,
 }
 
-/// `[contact.<law>.normal.eepa]`
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// n, 1 or 1.5.
-    pub overlap_exponent: f64,
-    /// χ: 1, 1.5, 2, 3 or 5.
-    pub adhesion_exponent: f64,
-    /// Where the stiffness of the adhesion branch comes from.
-    #[serde(default)]
-    pub adhesion: AdhesionKind,
-    /// Whether walls, k_n and `limit_force` are as in the engine.
-    #[serde(default)]
-    pub engine_exact: bool,
+keys! {
+    /// `[contact.<law>.normal.eepa]`
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Keys {
+        /// n: 1 or 1.5.
+        pub overlap_exponent: f64 = "required",
+        /// χ: 1, 1.5, 2, 3 or 5.
+        pub adhesion_exponent: f64 = "required",
+        /// Stiffness of the adhesion branch: from the patch that the plastic overlap leaves (`"patch"`), or given (`"fixed"`, with
+        /// both exponents 1).
+        #[serde(default)]
+        pub adhesion: AdhesionKind = "`\"patch\"`",
+        /// Whether walls, k_n and `limit_force` are as in the engine.
+        #[serde(default)]
+        pub engine_exact: bool = "`false`",
+    }
 }
 
 impl Keys {

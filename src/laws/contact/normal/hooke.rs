@@ -1,11 +1,11 @@
 //! A linear spring as stiff as a Hertz contact at one chosen speed.
 
+use crate::base::document::keys;
 use crate::base::number::{Number, Row};
 use crate::base::quantity::Positive;
 use crate::laws::contact::{
     Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients, property,
 };
-use serde::Deserialize;
 use std::f64::consts::PI;
 
 coefficients! {
@@ -38,12 +38,13 @@ coefficients! {
     }
 }
 
-/// `[contact.<law>.normal.hooke]`
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// V, the impact speed at which spring and Hertz contact store the same \[m/s\].
-    pub characteristic_velocity: Positive,
+keys! {
+    /// `[contact.<law>.normal.hooke]`
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Keys {
+        /// Impact speed V of equal strain energy with Hertz \[m/s\].
+        pub characteristic_velocity: Positive = "required",
+    }
 }
 
 /// k_n of effective Young's modulus \[Pa\], squared velocity \[m²/s²\], effective radius \[m\] and mass \[kg\].

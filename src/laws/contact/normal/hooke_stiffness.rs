@@ -1,10 +1,10 @@
 //! A linear spring of given stiffness.
 
+use crate::base::document::keys;
 use crate::base::number::{Number, Row};
 use crate::laws::contact::{
     Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForm, Onset, Response, Roots, coefficients, property,
 };
-use serde::Deserialize;
 
 coefficients! {
     /// A linear spring and dashpot as the scene gives them.
@@ -41,13 +41,14 @@ coefficients! {
     }
 }
 
-/// `[contact.<law>.normal.hooke_stiffness]`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// Whether damping is given absolutely, rather than for each effective mass.
-    #[serde(default)]
-    pub absolute_damping: bool,
+keys! {
+    /// `[contact.<law>.normal.hooke_stiffness]`
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// Whether damping is given whatever the masses.
+        #[serde(default)]
+        pub absolute_damping: bool = "`false`",
+    }
 }
 
 impl Normal for HookeStiffness {

@@ -1,6 +1,7 @@
 //! Sticky elastic spheres, soft or large: they pull beyond touch.
 
 use super::sticky::{self, Damping, DampingKind};
+use crate::base::document::keys;
 use crate::base::number::{Number, Row};
 use crate::laws::contact::{
     Adhesion, Contact, FrictionNeeds, MaterialPair, Missing, Normal, NormalForce, NormalForm, Response, Roots,
@@ -90,22 +91,23 @@ impl TearOff {
     }
 }
 
-/// `[contact.<law>.normal.jkr]`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// What damping follows.
-    #[serde(default)]
-    pub damping: DampingKind,
-    /// Whether k_t is `tangential_stiffness` \[Pa\] times the contact radius rather than 8 G* times it.
-    #[serde(default)]
-    pub given_tangential_modulus: bool,
-    /// Whether slip is that of the undeformed spheres, and torques at walls have their arms, as in the engine.
-    #[serde(default)]
-    pub engine_exact: bool,
-    /// Where a contact ends that is pulled apart.
-    #[serde(default)]
-    pub tear_off: TearOff,
+keys! {
+    /// `[contact.<law>.normal.jkr]`
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// γ_n follows mass and contact radius (`"viscoelastic"`), mass (`"mass_velocity"`), or neither (`"velocity"`).
+        #[serde(default)]
+        pub damping: DampingKind = "`\"viscoelastic\"`",
+        /// Whether k_t is `tangential_stiffness` \[Pa\] times the contact radius, not 8 G* times it.
+        #[serde(default)]
+        pub given_tangential_modulus: bool = "`false`",
+        /// Whether slip is that of the undeformed spheres, and torques at walls have their arms, as in the engine.
+        #[serde(default)]
+        pub engine_exact: bool = "`false`",
+        /// A contact ends at the `"largest_pull"`, or where the curve of force and overlap ends (`"whole_branch"`).
+        #[serde(default)]
+        pub tear_off: TearOff = "`\"largest_pull\"`",
+    }
 }
 
 impl Keys {

@@ -1,5 +1,6 @@
 //! What models of sticky elastic spheres have in common.
 
+use crate::base::document::keys;
 use crate::base::number::Number;
 use crate::laws::contact::{Contact, FrictionNeeds, MaterialPair, Missing, NormalForce, Response, Switches, property};
 use serde::Deserialize;
@@ -17,19 +18,20 @@ pub enum DampingKind {
     Velocity,
 }
 
-/// `[contact.<law>.normal.dmt]`; `jkr` has these keys, too.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Keys {
-    /// What damping follows.
-    #[serde(default)]
-    pub damping: DampingKind,
-    /// Whether k_t is `tangential_stiffness` \[Pa\] times the contact radius rather than 8 G* times it.
-    #[serde(default)]
-    pub given_tangential_modulus: bool,
-    /// Whether slip is that of the undeformed spheres, and torques at walls have their arms, as in the engine.
-    #[serde(default)]
-    pub engine_exact: bool,
+keys! {
+    /// `[contact.<law>.normal.dmt]`; `jkr` has these keys, too.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// γ_n follows mass and contact radius (`"viscoelastic"`), mass (`"mass_velocity"`), or neither (`"velocity"`).
+        #[serde(default)]
+        pub damping: DampingKind = "`\"viscoelastic\"`",
+        /// Whether k_t is `tangential_stiffness` \[Pa\] times the contact radius, not 8 G* times it.
+        #[serde(default)]
+        pub given_tangential_modulus: bool = "`false`",
+        /// Whether slip is that of the undeformed spheres, and torques at walls have their arms, as in the engine.
+        #[serde(default)]
+        pub engine_exact: bool = "`false`",
+    }
 }
 
 impl Keys {

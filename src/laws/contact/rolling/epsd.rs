@@ -3,8 +3,8 @@
 use super::rocking::{self, Keys, Spring};
 use crate::base::number::{Number, Row, Vector};
 use crate::laws::contact::{
-    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingResponse, coefficients,
-    property,
+    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Objection, Response, Rolling, RollingResponse,
+    coefficients, property,
 };
 
 coefficients! {
@@ -76,6 +76,10 @@ impl Rolling for Epsd {
     const ACTIVE: bool = true;
     const HISTORY: Option<HistoryRow> = Some(rocking::HISTORY);
     const NEEDS: Needs = rocking::NEEDS;
+
+    fn objection(keys: &Keys) -> Option<Objection> {
+        keys.objection()
+    }
 
     fn is_engine_exact(keys: &Keys) -> bool {
         keys.engine_exact

@@ -3,8 +3,8 @@
 use super::rocking::{self, Keys, Spring};
 use crate::base::number::{Number, Row, Vector};
 use crate::laws::contact::{
-    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Response, Rolling, RollingResponse, coefficients,
-    property,
+    Contact, HistoryRow, MaterialPair, Missing, Needs, NormalForce, Objection, Response, Rolling, RollingResponse,
+    coefficients, property,
 };
 
 coefficients! {
@@ -49,6 +49,10 @@ impl Rolling for Epsd2 {
     const HISTORY: Option<HistoryRow> = Some(rocking::HISTORY);
     const NEEDS: Needs = rocking::NEEDS;
     const TAKES_TANGENTIAL_STIFFNESS: bool = true;
+
+    fn objection(keys: &Keys) -> Option<Objection> {
+        keys.objection()
+    }
 
     fn is_engine_exact(keys: &Keys) -> bool {
         keys.engine_exact

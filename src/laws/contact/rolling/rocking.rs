@@ -1,9 +1,9 @@
 //! What springs against rolling have in common.
 
+use crate::base::document::keys;
 use crate::base::number::{Number, Vector};
 use crate::base::quantity::Positive;
-use crate::laws::contact::{Contact, HistoryRow, Needs, RollingResponse};
-use serde::Deserialize;
+use crate::laws::contact::{Contact, HistoryRow, Needs, Objection, RollingResponse};
 
 /// What a rolling spring remembers: its torque.
 pub(super) const HISTORY: HistoryRow =
@@ -12,51 +12,36 @@ pub(super) const HISTORY: HistoryRow =
 /// What of a contact it looks at.
 pub(super) const NEEDS: Needs = Needs { torque: true, spin: true, bodies: true, ..Needs::NONE };
 
-/// `[contact.<law>.rolling.<model>]` of models with a spring.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(try_from = "Written")]
-pub struct Keys {
-    /// Whether spin about the normal is resisted, too.
-    pub torsion: bool,
-    /// Whether spin at a wall, the direction of the torque and the first evaluation are as in the engine.
-    pub engine_exact: bool,
-    /// With `engine_exact`: the time step by which the engine stretches the spring in the evaluation before the first
-    /// step, without remembering it \[s\].
-    pub set_up_step: Option<Positive>,
-}
-
-/// The keys as they are written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    /// See [`Keys`].
-    #[serde(default)]
-    torsion: bool,
-    /// See [`Keys`].
-    #[serde(default)]
-    engine_exact: bool,
-    /// See [`Keys`] \[s\].
-    set_up_step: Option<Positive>,
-}
-
-impl TryFrom<Written> for Keys {
-    type Error = &'static str;
-
-    fn try_from(Written { torsion, engine_exact, set_up_step }: Written) -> Result<Self, Self::Error> {
-        if set_up_step.is_some() && !engine_exact {
-            return Err(
-                "expected engine_exact = true beside set_up_step, which is a step of the engine, found it alone",
-            );
-        }
-        Ok(Self { torsion, engine_exact, set_up_step })
+keys! {
+    /// `[contact.<law>.rolling.<model>]` of models with a spring.
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// Whether spin about the normal is resisted, too.
+        #[serde(default)]
+        pub torsion: bool = "`false`",
+        /// Whether spin at a wall, the direction of the torque and the first evaluation are as in the engine.
+        #[serde(default)]
+        pub engine_exact: bool = "`false`",
+        /// With `engine_exact` only: the step by which the engine stretches the spring before the first step \[s\].
+        pub set_up_step: Option<Positive> = "none",
     }
 }
 
 impl Keys {
+    /// What speaks against them, if anything.
+    pub(super) fn objection(&self) -> Option<Objection> {
+        let reason = "expected engine_exact = true beside a step of the engine, found it alone";
+        (self.set_up_step.is_some() && !self.engine_exact).then_some(Objection {
+            table: "rolling",
+            key: "set_up_step",
+            reason,
+        })
+    }
+
     /// As numbers: torsion, engine, step of the set-up \[s\].
     pub(super) fn numbers(self) -> [f64; 3] {
         let number = |yes: bool| if yes { 1.0 } else { 0.0 };
-        let set_up = self.set_up_step.filter(|_| self.engine_exact).map_or(0.0, Positive::get);
+        let set_up = self.set_up_step.map_or(0.0, Positive::get);
         [number(self.torsion), number(self.engine_exact), set_up]
     }
 }

@@ -1,10 +1,10 @@
 //! Friction with a tangential spring that turns with the contact.
 
+use crate::base::document::keys;
 use crate::base::number::{Number, Vector};
 use crate::laws::contact::{
     Contact, Friction, HistoryRow, MaterialPair, Missing, NormalForce, Tangential, coefficients, property,
 };
-use serde::Deserialize;
 
 coefficients! {
     /// Coulomb friction with a spring that turns with the contact, and a limit on spring and dashpot together.
@@ -54,17 +54,19 @@ coefficients! {
     }
 }
 
-/// `[contact.<law>.tangential.turned_history]`
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Keys {
-    /// Whether the spring shortens with its stiffness when a contact shrinks.
-    pub rescale: bool,
-    /// Whether the stiffness is `tangential_stiffness` \[N/m\] rather than the normal model's.
-    pub given_stiffness: bool,
-    /// Whether a dashpot beyond the limit stretches the spring backwards, as in the engine; where the scene does not say, unless the
-    /// dashpot has its full strength at first touch.
-    pub backward_spring: Option<bool>,
+keys! {
+    /// `[contact.<law>.tangential.turned_history]`
+    #[derive(Clone, Copy, Debug, Default, PartialEq)]
+    pub struct Keys {
+        /// Whether the spring shortens with its stiffness when a contact shrinks.
+        #[serde(default)]
+        pub rescale: bool = "`false`",
+        /// Whether the stiffness is `tangential_stiffness` \[N/m\], not the normal model's.
+        #[serde(default)]
+        pub given_stiffness: bool = "`false`",
+        /// Whether a dashpot beyond the limit of friction stretches the spring backwards, as LAMMPS does; not with `eepa`.
+        pub backward_spring: Option<bool> = "`true`; with `eepa` `false`",
+    }
 }
 
 impl Tangential for TurnedHistory {

@@ -60,6 +60,28 @@ fn count(list: &mut Vec<Foot>, foot: Foot) {
     }
 }
 
+/// Adds the weights of feet that fall together with one on a face to that one, which alone is left of them: as a foot on the common edge of
+/// two faces of a plane, or on a corner there, is on both. Friction has one face to act on.
+fn unite(list: &mut [Foot], first_face: u32, within: f64) {
+    let is_face = |foot: &Foot| foot.feature >= first_face;
+    if list.iter().filter(|foot| is_face(foot)).count() < 2 {
+        return;
+    }
+    for place in 0..list.len() {
+        let one = list[place];
+        if !is_face(&one) || one.weight == 0.0 {
+            continue;
+        }
+        let falls_together =
+            |other: &Foot| (other.normal * other.distance - one.normal * one.distance).length() <= within;
+        for other in (0..list.len()).filter(|&other| other != place) {
+            if falls_together(&list[other]) {
+                list[place].weight += std::mem::take(&mut list[other].weight);
+            }
+        }
+    }
+}
+
 impl Features for Mesh {
     fn near(&self, centre: Vector, reach: f64, parts: &mut Vec<u32>) {
         let before = parts.len();
@@ -196,6 +218,7 @@ impl Mesh {
                 count(list, bend(vertex, apart, distance, self.of_vertex(centre, vertex)));
             }
         }
+        unite(list, self.face(0), FLAT * radius);
         list.retain(|foot| foot.weight != 0.0);
         list.sort_unstable_by_key(|foot| foot.feature);
         self.find_saddles(centre, feet);

@@ -181,6 +181,7 @@ fn tell_unneeded(written: &RawTables, column: &Column, faults: &mut Faults) {
     let sets = sets.map(|(name, _)| format!("particles.{name}"));
     let insertions = written.insertions.iter().filter(|(_, keys)| keys.columns.contains_key(column.name));
     for table in sets.chain(insertions.map(|(name, _)| format!("insertion.{name}"))) {
-        faults.unread(&table, column.name, "this scene does not ask for it");
+        let why = format!("this scene does not ask for it, as any of {} would", column.asked_by.join(", "));
+        faults.unread(&table, column.name, &why);
     }
 }

@@ -147,16 +147,13 @@ fn of_one_clump(scene: &SceneDraft, probe: &Probe) -> Option<(&'static str, Mist
     })
 }
 
-/// Spacing of numbers at a particle over its radius, above which its place is too coarse to say what it touches.
-const COARSE: f64 = 1e-6;
-
 /// Particles whose mass or inertia no number holds, or which are so far away that numbers do not resolve their radius.
 fn numbers(scene: &SceneDraft) -> Vec<Finding> {
     let holds = |value: f64| value.is_normal();
     let light = |particle: &&Particle| !holds(particle.mass()) || !holds(particle.inertia());
     let far = |particle: &&Particle| {
         let most = particle.position.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
-        most * f64::EPSILON > COARSE * particle.radius
+        most > Particle::farthest(particle.radius)
     };
     let table = |particle: &Particle| {
         scene.sets.get(particle.set.index()).map_or("particles".to_owned(), |set| format!("particles.{set}"))
@@ -171,7 +168,7 @@ fn numbers(scene: &SceneDraft) -> Vec<Finding> {
     if let Some(particle) = scene.particles.iter().find(far) {
         let (id, position, radius) = (particle.id.0, particle.position, particle.radius);
         let found = format!("particle {id} of radius {radius:?} m at {position:?} m, where numbers are too coarse");
-        let expected = format!("particles at most {:.1e} m from the origin", COARSE * radius / f64::EPSILON);
+        let expected = format!("particles at most {:.1e} m from the origin", Particle::farthest(radius));
         findings.push(Finding::at(table(particle), "", Mistake::Unexpected { found, expected }));
     }
     findings

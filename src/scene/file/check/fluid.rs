@@ -4,7 +4,7 @@ use super::particles::ReadParticles;
 use super::raw_tables::{FluidTables, RawTables};
 use super::{heat, tables};
 use crate::base::document::{Faults, Mistake};
-use crate::base::quantity::Porosity;
+use crate::base::quantity::{Porosity, Positive};
 use crate::laws::contact::Material;
 use crate::scene::file::tables::{FluidTable, TemperatureKey, VelocityKey};
 use crate::scene::{AxisMotion, ColumnStart, Fluid, FluidHeat, FluidVelocity, Source};
@@ -17,9 +17,8 @@ pub(super) fn fluid(
     faults: &mut Faults,
 ) -> Option<Fluid> {
     let tables = written.fluid.as_ref()?;
-    let FluidTables { name, keys, drag, .. } = tables;
+    let FluidTables { name, keys, drag, lift, .. } = tables;
     let table = format!("fluid.{name}");
-    answer(keys, &table, faults);
     let known: Vec<String> = written.grids.iter().map(|(name, _)| name.clone()).collect();
     let grid = keys.grid.as_ref().map(|grid| known.iter().position(|name| name == grid).ok_or(grid)).transpose();
     let grid = grid.map_err(|grid| {
@@ -34,6 +33,8 @@ pub(super) fn fluid(
         pressure: keys.pressure,
         porosity: keys.porosity.map(Porosity::get),
         drag: *drag,
+        lift: lift.clone(),
+        added_mass: keys.added_mass.map(Positive::get),
         torque: keys.torque,
         heat: heat_of(tables, &table, particles, faults),
     })
@@ -75,19 +76,6 @@ fn heat_of(
     };
     let (conductivity, specific_heat) = (keys.conductivity?.get(), keys.specific_heat?.get());
     Some(FluidHeat { law: tables.convection?, temperature, is_driven, conductivity, specific_heat })
-}
-
-/// Answers keys for what is not modelled.
-fn answer(keys: &FluidTable, table: &str, faults: &mut Faults) {
-    let answers = [
-        ("lift", keys.lift.is_some(), "expected none, found one: lift is not modelled"),
-        ("added_mass", keys.added_mass.is_some(), "expected none, found one: added mass is not modelled"),
-    ];
-    for (key, is_there, message) in answers {
-        if is_there {
-            faults.add(table, key, Mistake::Refused { message: message.to_owned() });
-        }
-    }
 }
 
 /// How it moves.

@@ -261,6 +261,7 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
         allow_unstable: table.allow_unstable.unwrap_or(defaults.allow_unstable),
         strict_step: table.strict_step.unwrap_or(defaults.strict_step),
         threads: table.threads.map(|threads| threads.get() as usize),
+        width: None,
         seed: table.seed.unwrap_or(defaults.seed),
         skin: table.skin.map(crate::base::quantity::Positive::get),
         settle_tolerance: table

@@ -14,6 +14,7 @@ use crate::laws::contact::{
 use crate::laws::convection::ConvectionModel;
 use crate::laws::drag::DragModel;
 use crate::laws::law_row::{LawModel, LawRow};
+use crate::laws::lift::LiftModel;
 use crate::laws::region;
 use crate::laws::surface::{ShapeRow, mesh};
 use crate::laws::wear::WearModel;
@@ -363,6 +364,8 @@ pub(super) struct FluidTables {
     pub(super) keys: FluidTable,
     /// The law of its drag.
     pub(super) drag: DragModel,
+    /// The laws of its lift.
+    pub(super) lift: Vec<LiftModel>,
     /// The law of its convection, if heat flows into it.
     pub(super) convection: Option<ConvectionModel>,
 }
@@ -378,20 +381,38 @@ fn fluid(document: &Document, models: &Models, faults: &mut Faults) -> Option<Fl
     let name = names.into_iter().next()?;
     let path = format!("fluid.{name}");
     let table = document.read(&path, faults);
-    let drag = law_of_fluid(document, (&path, "drag"), &models.drag, faults)?;
-    let convects = document.has(&format!("{path}.heat"));
+    let there = |kind: &str| document.has(&format!("{path}.{kind}"));
+    let drag = one_law(document, (&path, "drag"), &models.drag, faults)?;
+    let lift = if there("lift") { laws_of_fluid(document, (&path, "lift"), &models.lift, faults)? } else { Vec::new() };
+    let convects = there("heat");
     let convection =
-        if convects { Some(law_of_fluid(document, (&path, "heat"), &models.convection, faults)?) } else { None };
-    Some(FluidTables { name, keys: table?, drag, convection })
+        if convects { Some(one_law(document, (&path, "heat"), &models.convection, faults)?) } else { None };
+    Some(FluidTables { name, keys: table?, drag, lift, convection })
 }
 
 /// The one law of a kind that a fluid names.
-fn law_of_fluid<F: ?Sized>(
+fn one_law<F: ?Sized>(
     document: &Document,
     (path, kind): (&str, &'static str),
     rows: &[&'static LawRow<F>],
     faults: &mut Faults,
 ) -> Option<LawModel<F>> {
+    let laws = laws_of_fluid(document, (path, kind), rows, faults)?;
+    let [law] = laws[..] else {
+        let found = laws.iter().map(LawModel::name).collect::<Vec<_>>().join(" and ");
+        faults.add(&format!("{path}.{kind}"), "", Mistake::Unexpected { found, expected: format!("one {kind} law") });
+        return None;
+    };
+    Some(law)
+}
+
+/// The laws of a kind that a fluid names, one at least.
+fn laws_of_fluid<F: ?Sized>(
+    document: &Document,
+    (path, kind): (&str, &'static str),
+    rows: &[&'static LawRow<F>],
+    faults: &mut Faults,
+) -> Option<Vec<LawModel<F>>> {
     let laws = format!("{path}.{kind}");
     if !document.is_table(&laws) {
         let expected = format!("a table [{laws}.<law>]");
@@ -403,17 +424,21 @@ fn law_of_fluid<F: ?Sized>(
         return None;
     }
     let chosen = document.names(&laws);
-    let [law] = &chosen[..] else {
-        let found = if chosen.is_empty() { "none".to_owned() } else { chosen.join(" and ") };
-        faults.add(&laws, "", Mistake::Unexpected { found, expected: format!("one {kind} law") });
+    if chosen.is_empty() {
+        let (found, expected) = ("none".to_owned(), format!("one {kind} law"));
+        faults.add(&laws, "", Mistake::Unexpected { found, expected });
         return None;
-    };
-    let Some(row) = rows.iter().find(|row| row.name() == law) else {
-        let known = rows.iter().map(|row| row.name().to_owned()).collect();
-        faults.add(&format!("{laws}.{law}"), "", Mistake::UnknownModel { found: law.clone(), kind, known });
-        return None;
-    };
-    row.read(document, &laws, faults)
+    }
+    let mut models = Vec::new();
+    for law in chosen {
+        let Some(row) = rows.iter().find(|row| row.name() == law) else {
+            let known = rows.iter().map(|row| row.name().to_owned()).collect();
+            faults.add(&format!("{laws}.{law}"), "", Mistake::UnknownModel { found: law, kind, known });
+            return None;
+        };
+        models.push(row.read(document, &laws, faults)?);
+    }
+    Some(models)
 }
 
 /// The models of wear of a boundary.

@@ -1,15 +1,14 @@
 //! A fluid, as the scene writes it.
 
 use super::TemperatureKey;
-use crate::base::document::keys;
+use crate::base::document::{Forms, keys, several_forms};
 use crate::base::quantity::{Porosity, Positive, Triple};
 use crate::laws::motion::{Axis, PrescribedMotion};
 use crate::scene::Pressure;
+use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
-use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess};
 use std::collections::BTreeMap;
-use std::fmt;
 
 keys! {
     /// `[fluid.<name>]`, without its laws.
@@ -28,6 +27,8 @@ keys! {
         pub(in crate::scene::file) pressure: Option<Pressure> = "ρ g, no input",
         /// Part of space that the particles leave to it.
         pub(in crate::scene::file) porosity: Option<Porosity> = "1; laws of beds need it, or a grid",
+        /// Added mass of a sphere over the mass of the fluid in its volume: 0.5 for one sphere.
+        pub(in crate::scene::file) added_mass: Option<Positive> = "none",
         /// Whether it brakes rotation.
         #[serde(default)]
         pub(in crate::scene::file) torque: bool = "`false`",
@@ -38,13 +39,12 @@ keys! {
         /// Specific heat \[J/(kg K)\].
         pub(in crate::scene::file) specific_heat: Option<Positive> = "required by convection",
     } beside {
-        /// Answered: not modelled.
-        pub(in crate::scene::file) lift: Option<IgnoredAny>,
-        /// Answered: not modelled.
-        pub(in crate::scene::file) added_mass: Option<IgnoredAny>,
         /// Read on its own.
         #[serde(rename = "drag")]
         _drag: Option<IgnoredAny>,
+        /// Read on its own.
+        #[serde(rename = "lift")]
+        _lift: Option<IgnoredAny>,
         /// Read on its own.
         #[serde(rename = "heat")]
         _heat: Option<IgnoredAny>,
@@ -74,40 +74,33 @@ enum Braces {
     Prescribed,
 }
 
-impl<'de> Deserialize<'de> for VelocityKey {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a vector, a word or a table.
-        struct Written;
-        /// What is expected.
-        const EXPECTED: &str = "[x, y, z] [m/s], \"driven\", { driven = [x, y, z] } with that at the start, or { prescribed = { x = .. } }";
-        impl<'de> Visitor<'de> for Written {
-            type Value = VelocityKey;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<VelocityKey, A::Error> {
-                Triple::deserialize(SeqAccessDeserializer::new(list)).map(VelocityKey::Given)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<VelocityKey, E> {
-                match word {
-                    "driven" => Ok(VelocityKey::Driven),
-                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
-                }
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<VelocityKey, A::Error> {
-                let Some(kind) = map.next_key()? else {
-                    return Err(A::Error::custom(format!("expected {EXPECTED}, found an empty table")));
-                };
-                let velocity = match kind {
-                    Braces::Driven => VelocityKey::DrivenFrom(map.next_value()?),
-                    Braces::Prescribed => VelocityKey::Prescribed(map.next_value()?),
-                };
-                match map.next_key::<String>()? {
-                    None => Ok(velocity),
-                    Some(more) => Err(A::Error::custom(format!("expected one of the two, found {more} beside it"))),
-                }
-            }
+impl Forms for VelocityKey {
+    const EXPECTED: &'static str =
+        "[x, y, z] [m/s], \"driven\", { driven = [x, y, z] } with that at the start, or { prescribed = { x = .. } }";
+
+    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+        Triple::deserialize(SeqAccessDeserializer::new(list)).map(Self::Given)
+    }
+
+    fn word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "driven" => Ok(Self::Driven),
+            _ => Err(Self::refused(word)),
         }
-        deserializer.deserialize_any(Written)
+    }
+
+    fn table<'de, A: MapAccess<'de>>(mut map: A) -> Result<Self, A::Error> {
+        let Some(kind) = map.next_key()? else {
+            return Err(A::Error::custom(format!("expected {}, found an empty table", Self::EXPECTED)));
+        };
+        let velocity = match kind {
+            Braces::Driven => Self::DrivenFrom(map.next_value()?),
+            Braces::Prescribed => Self::Prescribed(map.next_value()?),
+        };
+        match map.next_key::<String>()? {
+            None => Ok(velocity),
+            Some(more) => Err(A::Error::custom(format!("expected one of the two, found {more} beside it"))),
+        }
     }
 }
+several_forms!(VelocityKey);

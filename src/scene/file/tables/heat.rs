@@ -1,14 +1,13 @@
 //! Temperatures and heat sources, as the scene writes them.
 
-use crate::base::document::keys;
+use crate::base::document::{Forms, keys, several_forms};
 use crate::base::quantity::{Finite, NonNegative, Positive};
 use crate::laws::contact::LossKind;
 use crate::laws::surface::Selection;
 use crate::scene::HeatSettings;
+use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
-use serde::de::{Error, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
-use std::fmt;
+use serde::de::{Error, MapAccess, Unexpected};
 
 /// `temperature` of a boundary.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,10 +20,21 @@ pub(in crate::scene::file) enum TemperatureKey {
     DrivenFrom(f64),
 }
 
-impl<'de> Deserialize<'de> for TemperatureKey {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a number, a word or a table.
-        struct Written;
+impl Forms for TemperatureKey {
+    const EXPECTED: &'static str = "a number above 0 [K], \"driven\", or { driven = .. } with that at the start";
+
+    fn number<E: Error>(value: f64, _written: Unexpected) -> Result<Self, E> {
+        Positive::new(value).map(|it| Self::Given(it.get())).ok_or_else(|| Self::refused(value))
+    }
+
+    fn word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "driven" => Ok(Self::Driven),
+            _ => Err(Self::refused(word)),
+        }
+    }
+
+    fn table<'de, A: MapAccess<'de>>(map: A) -> Result<Self, A::Error> {
         /// `{ driven = 300.0 }`
         #[derive(Deserialize)]
         #[serde(deny_unknown_fields)]
@@ -32,34 +42,11 @@ impl<'de> Deserialize<'de> for TemperatureKey {
             /// Temperature at the start \[K\].
             driven: Positive,
         }
-        /// What is expected.
-        const EXPECTED: &str = "a number above 0 [K], \"driven\", or { driven = .. } with that at the start";
-        impl<'de> Visitor<'de> for Written {
-            type Value = TemperatureKey;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<TemperatureKey, E> {
-                let refused = || E::custom(format!("expected {EXPECTED}, found {value:?}"));
-                Positive::new(value).map(|it| TemperatureKey::Given(it.get())).ok_or_else(refused)
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<TemperatureKey, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<TemperatureKey, E> {
-                match word {
-                    "driven" => Ok(TemperatureKey::Driven),
-                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
-                }
-            }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<TemperatureKey, A::Error> {
-                let from = From::deserialize(MapAccessDeserializer::new(map))?;
-                Ok(TemperatureKey::DrivenFrom(from.driven.get()))
-            }
-        }
-        deserializer.deserialize_any(Written)
+        let from = From::deserialize(MapAccessDeserializer::new(map))?;
+        Ok(Self::DrivenFrom(from.driven.get()))
     }
 }
+several_forms!(TemperatureKey);
 
 keys! {
     /// `[heat]`

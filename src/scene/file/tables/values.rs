@@ -1,9 +1,10 @@
 //! Values that are more than one plain number.
 
+use crate::base::document::{Forms, several_forms};
 use crate::base::quantity::Positive;
-use serde::de::{Error, SeqAccess, Visitor};
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{Error, SeqAccess, Unexpected};
 use serde::{Deserialize, Deserializer};
-use std::fmt;
 
 /// `step` of `[run]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,36 +15,24 @@ pub(in crate::scene::file) enum StepKey {
     Automatic,
 }
 
-impl<'de> Deserialize<'de> for StepKey {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        /// Takes a number or a word.
-        struct NumberOrWord;
-        /// What is expected.
-        const EXPECTED: &str = "a number above 0, in seconds, or \"auto\"";
-        impl Visitor<'_> for NumberOrWord {
-            type Value = StepKey;
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str(EXPECTED)
-            }
-            fn visit_f64<E: Error>(self, value: f64) -> Result<StepKey, E> {
-                match Positive::new(value) {
-                    Some(step) => Ok(StepKey::Given(step.get())),
-                    None => Err(E::custom(format!("expected {EXPECTED}, found {value:?}"))),
-                }
-            }
-            fn visit_i64<E: Error>(self, value: i64) -> Result<StepKey, E> {
-                self.visit_f64(value as f64)
-            }
-            fn visit_str<E: Error>(self, word: &str) -> Result<StepKey, E> {
-                match word {
-                    "auto" => Ok(StepKey::Automatic),
-                    _ => Err(E::custom(format!("expected {EXPECTED}, found {word:?}"))),
-                }
-            }
+impl Forms for StepKey {
+    const EXPECTED: &'static str = "a number above 0, in seconds, or \"auto\"";
+
+    fn number<E: Error>(value: f64, _written: Unexpected) -> Result<Self, E> {
+        match Positive::new(value) {
+            Some(step) => Ok(Self::Given(step.get())),
+            None => Err(Self::refused(value)),
         }
-        deserializer.deserialize_any(NumberOrWord)
+    }
+
+    fn word<E: Error>(word: &str) -> Result<Self, E> {
+        match word {
+            "auto" => Ok(Self::Automatic),
+            _ => Err(Self::refused(word)),
+        }
     }
 }
+several_forms!(StepKey);
 
 /// Pairs of material names.
 #[derive(Clone, Debug)]
@@ -53,29 +42,18 @@ impl<'de> Deserialize<'de> for MaterialPairs {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         /// A name or a pair of names.
         struct Part(Vec<String>, bool);
-        impl<'de> Deserialize<'de> for Part {
-            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                /// Takes a name or a list of names.
-                struct NameOrNames;
-                impl<'de> Visitor<'de> for NameOrNames {
-                    type Value = Part;
-                    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                        f.write_str("a material's name or a pair of them")
-                    }
-                    fn visit_str<E: Error>(self, name: &str) -> Result<Part, E> {
-                        Ok(Part(vec![name.to_owned()], false))
-                    }
-                    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Part, A::Error> {
-                        let mut names = Vec::new();
-                        while let Some(name) = list.next_element()? {
-                            names.push(name);
-                        }
-                        Ok(Part(names, true))
-                    }
-                }
-                deserializer.deserialize_any(NameOrNames)
+        impl Forms for Part {
+            const EXPECTED: &'static str = "a material's name or a pair of them";
+
+            fn word<E: Error>(name: &str) -> Result<Self, E> {
+                Ok(Self(vec![name.to_owned()], false))
+            }
+
+            fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Self, A::Error> {
+                Vec::deserialize(SeqAccessDeserializer::new(list)).map(|names| Self(names, true))
             }
         }
+        several_forms!(Part);
         /// What is expected.
         const EXPECTED: &str = "[\"a\", \"b\"] or a list of such pairs";
         let parts = Vec::<Part>::deserialize(deserializer)?;
