@@ -10,5 +10,4 @@ pub mod powers;
 pub mod quantity;
 pub(crate) mod threads;
 pub(crate) mod vtk_reader;
-pub(crate) mod vtk_writer;
 pub mod words;

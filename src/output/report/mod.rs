@@ -100,6 +100,7 @@ pub fn check(scene: &Arc<Scene>, scene_name: &str, from: Option<&Path>) -> Resul
     let rules = rules(scene, &simulation);
     let present = simulation.state().clone();
     let trial = trial::of(&mut simulation, &interface, schedule.as_ref().map(|schedule| (schedule, begins)));
+    let trial = trial.map_err(|source| Refusal::Frame { scene: scene_name.to_owned(), source })?;
     let memory = memory(&trial);
     simulation.return_to(&present);
     let forecast = schedule.map(|schedule| forecast::of(scene, &simulation, (&schedule, begins), &trial));

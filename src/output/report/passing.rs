@@ -3,7 +3,8 @@
 use crate::base::number::Vector;
 use crate::engine::simulation::Simulation;
 use crate::engine::state::InsertedParticle;
-use crate::output::results::frames::{self, Shown};
+use crate::output::results::frames;
+use crate::output::results::vtk::EncodeError;
 use crate::scene::exchange::Amount;
 use crate::scene::packing::generator::{generator_after, uniform};
 use crate::scene::{Insertion, Scene};
@@ -35,10 +36,10 @@ pub(crate) enum Files {
 
 impl ParticleExchange {
     /// What is foretold of so long a time \[s\]; nothing where the number of particles stays.
-    pub(crate) fn of(simulation: &Simulation, duration: f64) -> Option<Self> {
+    pub(crate) fn of(simulation: &Simulation, duration: f64) -> Result<Option<Self>, EncodeError> {
         let scene = simulation.scene();
         if !scene.changes_number() {
-            return None;
+            return Ok(None);
         }
         let present = simulation.state().particles.len() as f64;
         let come = |share: fn(Amount) -> f64| -> f64 {
@@ -47,7 +48,7 @@ impl ParticleExchange {
         };
         let mean = present + come(share_present);
         let least = if scene.removes() { 0.0 } else { present };
-        Some(Self { present, counts: [least, present + come(|_| 1.0)], mean, each: each(simulation) })
+        Ok(Some(Self { present, counts: [least, present + come(|_| 1.0)], mean, each: each(simulation)? }))
     }
 
     /// Least and largest size of a file that has this size now \[bytes\].
@@ -83,13 +84,15 @@ fn count(scene: &Scene, insertion: &Insertion, duration: f64) -> f64 {
 }
 
 /// What a particle adds to a frame and to a checkpoint \[bytes\]: found by some that are put anywhere.
-fn each(simulation: &Simulation) -> [f64; 2] {
+fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
     let (scene, mut state) = (simulation.scene(), simulation.state().clone());
     let sizes = |state: &crate::engine::state::State| {
-        let frame = frames::particles(scene, (&state.particles, scene.has_clumps().then_some(&state.clumps)), None);
-        [Shown::Cloud(frame).length(scene.output.compressed), state.to_bytes(0).len() as f64]
+        let frame = frames::particles(scene, (&state.particles, scene.has_clumps().then_some(&state.clumps)), None)
+            .encode(scene.output.compressed)?
+            .len();
+        Ok([frame as f64, state.to_bytes(0).len() as f64])
     };
-    let before = sizes(&state);
+    let before = sizes(&state)?;
     let mut random = generator_after(scene.run.seed, "forecast", 0);
     let declared = vec![0.0; state.particles.declared.len()];
     for number in 0..SAMPLES {
@@ -98,6 +101,6 @@ fn each(simulation: &Simulation) -> [f64; 2] {
         let newcomer = InsertedParticle { position, velocity, inertia: 1.0, material: 0, number, declared: &declared };
         state.add_particle(&newcomer, 0, !state.particles.orientation.is_empty());
     }
-    let after = sizes(&state);
-    [0, 1].map(|place| (after[place] - before[place]) / f64::from(SAMPLES))
+    let after = sizes(&state)?;
+    Ok([0, 1].map(|place| (after[place] - before[place]) / f64::from(SAMPLES)))
 }

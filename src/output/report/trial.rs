@@ -5,6 +5,7 @@ use crate::engine::simulation::{RunError, Simulation};
 use crate::interface::Interface;
 use crate::output::results::frames;
 use crate::output::results::schedule::Schedule;
+use crate::output::results::vtk::EncodeError;
 use crate::output::run::jobs::{frame, row};
 use std::time::{Duration, Instant};
 
@@ -70,19 +71,23 @@ impl Trial {
 }
 
 /// Makes real steps from where the simulation stands, divided as the schedule says from this time on \[s\], and one output of each kind.
-pub(crate) fn of(simulation: &mut Simulation, interface: &Interface, schedule: Option<(&Schedule, f64)>) -> Trial {
+pub(crate) fn of(
+    simulation: &mut Simulation,
+    interface: &Interface,
+    schedule: Option<(&Schedule, f64)>,
+) -> Result<Trial, EncodeError> {
     let begun = Instant::now();
     let mut trial = steps(simulation, schedule, PATIENCE);
-    trial.row = price(|| row(interface, simulation, simulation.time()).text().len() as f64 + 1.0);
+    trial.row = price(|| Ok(row(interface, simulation, simulation.time()).text().len() as f64 + 1.0))?;
     if simulation.scene().output.frame_interval.is_some() {
-        trial.frame = price(|| bytes_of_frame(simulation));
+        trial.frame = price(|| bytes_of_frame(simulation))?;
     }
-    trial.checkpoint = price(|| simulation.state().to_bytes(0).len() as f64);
+    trial.checkpoint = price(|| Ok(simulation.state().to_bytes(0).len() as f64))?;
     if let Some((schedule, begins)) = schedule {
-        trial.passing = ParticleExchange::of(simulation, schedule.end() - begins);
+        trial.passing = ParticleExchange::of(simulation, schedule.end() - begins)?;
     }
     trial.cost = begun.elapsed().as_secs_f64();
-    trial
+    Ok(trial)
 }
 
 /// Time steps and their wall time.
@@ -171,24 +176,24 @@ pub(crate) fn steps(simulation: &mut Simulation, schedule: Option<(&Schedule, f6
 }
 
 /// What one output costs: the least of three, since the first one finds its memory cold; of one where that takes long.
-fn price(mut make: impl FnMut() -> f64) -> OutputCost {
+fn price(mut make: impl FnMut() -> Result<f64, EncodeError>) -> Result<OutputCost, EncodeError> {
     let mut price = OutputCost { time: f64::INFINITY, bytes: 0.0 };
     for _ in 0..3 {
         let begun = Instant::now();
-        price.bytes = make();
+        price.bytes = make()?;
         let took = begun.elapsed().as_secs_f64();
         price.time = price.time.min(took);
         if took > LONG {
             break;
         }
     }
-    price
+    Ok(price)
 }
 
 /// Bytes of all files of a frame.
-fn bytes_of_frame(simulation: &Simulation) -> f64 {
-    let scene = simulation.scene();
-    frames::files(scene, frame(simulation, 0.0)).map(|file| file.length(scene.output.compressed)).sum()
+fn bytes_of_frame(simulation: &Simulation) -> Result<f64, EncodeError> {
+    let mut files = frames::files(simulation.scene(), frame(simulation, 0.0));
+    files.try_fold(0.0, |sum, file| Ok(sum + file?.len() as f64))
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Why a command did not do its work.
 
+use super::vtk::EncodeError;
 use crate::base::document::proposal;
 use crate::base::words::plain;
 use crate::engine::simulation::RunError;
@@ -18,6 +19,14 @@ pub enum OutputError {
         path: PathBuf,
         /// What the system said.
         source: io::Error,
+    },
+    /// The bytes could not be made.
+    #[error("{}: {source}", path.display())]
+    Encode {
+        /// The file.
+        path: PathBuf,
+        /// What the encoder said.
+        source: EncodeError,
     },
     /// Something that no run has made stands where a run writes.
     #[error("{}: expected {expected}, found {found}; move it away", path.display())]

@@ -1,6 +1,7 @@
 //! Why a command did not do its work: the input was refused, or the work failed.
 
 use super::error::{InputsError, OutputError, ResumeError, TakeOverError};
+use super::vtk::EncodeError;
 use crate::base::words::{counted, plain};
 use crate::engine::simulation::RunError;
 use crate::interface::ChosenError;
@@ -30,6 +31,14 @@ pub enum Refusal {
         scene: String,
         /// Why not.
         source: crate::engine::statics::StaticsError,
+    },
+    /// A frame cannot be made.
+    #[error("{scene}: {source}")]
+    Frame {
+        /// File name of the scene.
+        scene: String,
+        /// Why not.
+        source: EncodeError,
     },
     /// The results have no place there.
     #[error("{}: expected a folder, or a name that is not there yet, found a file", folder.display())]

@@ -31,7 +31,7 @@ pub(crate) fn write_whole(path: &Path, bytes: &[u8], durability: Durability) -> 
 }
 
 /// The same, with a function that writes the contents.
-pub(super) fn write_whole_by(
+fn write_whole_by(
     path: &Path,
     durability: Durability,
     contents: impl FnOnce(&mut File) -> io::Result<()>,

@@ -2,13 +2,13 @@
 
 use super::collection::Collection;
 use super::error::OutputError;
-use super::files::{Durability, write_whole_by};
-use super::frames::Shown;
+use super::files::{Durability, write_whole};
 use super::job::Job;
+use super::vtk::EncodeError;
 use super::{FRAMES, collection_name, frame_name, frames, grid_frames};
 use crate::scene::Scene;
 use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A frame that is there.
@@ -54,9 +54,7 @@ impl FrameFiles {
     /// Writes the files of a frame, then their entries. Yields the files.
     pub(crate) fn write(&mut self, scene: &Scene, frame: Frame, job: Job) -> Result<Vec<PathBuf>, OutputError> {
         let files = frames::files(scene, job);
-        let compressed = scene.output.compressed;
-        let add = |(series, shown): (&mut Series, Shown<'_>)| series.add(&self.path, frame, (&shown, compressed));
-        self.series.iter_mut().zip(files).map(add).collect()
+        self.series.iter_mut().zip(files).map(|(series, bytes)| series.add(&self.path, frame, bytes)).collect()
     }
 
     /// Keeps these frames and removes the others: first their entries, then their files.
@@ -104,15 +102,12 @@ impl Series {
         &mut self,
         folder: &Path,
         frame: Frame,
-        (shown, compressed): (&Shown<'_>, bool),
+        bytes: Result<Vec<u8>, EncodeError>,
     ) -> Result<PathBuf, OutputError> {
         let name = frame_name(&self.name, frame.number);
         let path = folder.join(&name);
-        write_whole_by(&path, Durability::Process, |file| {
-            let mut buffered = BufWriter::new(file);
-            shown.write(&mut buffered, compressed)?;
-            buffered.flush()
-        })?;
+        let bytes = bytes.map_err(|source| OutputError::Encode { path: path.clone(), source })?;
+        write_whole(&path, &bytes, Durability::Process)?;
         self.collection.add(frame.time, &name)?;
         Ok(path)
     }

@@ -4,46 +4,20 @@
 use super::boundaries::boundaries;
 use super::image;
 use super::job::Job;
-use super::vtk::{Kind, PointCloud, Values};
+use super::vtk::{EncodeError, Kind, PointCloud, Values};
 use crate::base::geometry::{Lattice, Quaternion};
 use crate::engine::bodies::loads::{force_on, mass_of};
 use crate::engine::simulation::{BondRecord, ContactRecord, number};
 use crate::engine::state::{CellState, Clumps, Particles};
-use crate::interface::Field;
 use crate::scene::{Grid, ParticleShape, Scene};
-use std::io::{self, Write};
 
-/// What one file of a frame shows.
-pub(crate) enum Shown<'a> {
-    /// Points.
-    Cloud(PointCloud),
-    /// Fields on a grid.
-    Image(&'a Grid, Vec<Field>),
-}
-
-impl Shown<'_> {
-    /// Writes the file, which may be compressed.
-    pub(crate) fn write(&self, out: &mut impl Write, compressed: bool) -> io::Result<()> {
-        match self {
-            Self::Cloud(cloud) => cloud.write(out, compressed),
-            Self::Image(grid, fields) => image::write(&grid.shape, fields, out, compressed),
-        }
-    }
-
-    /// How long the file is, which may be compressed \[bytes\].
-    pub(crate) fn length(&self, compressed: bool) -> f64 {
-        let mut bytes = Vec::new();
-        // Writing to memory has no way to fail.
-        let _ = self.write(&mut bytes, compressed);
-        bytes.len() as f64
-    }
-}
-
-/// What the files of a frame show, in the order of their kinds; nothing for other jobs.
-pub(crate) fn files(scene: &Scene, mut job: Job) -> impl Iterator<Item = Shown<'_>> {
+/// The files of a frame as bytes, in the order of their kinds; none for other jobs.
+pub(crate) fn files(scene: &Scene, mut job: Job) -> impl Iterator<Item = Result<Vec<u8>, EncodeError>> {
     let fields = if let Job::Frame { grids, .. } = &mut job { std::mem::take(grids) } else { Vec::new() };
-    let images = grids(scene).zip(fields).map(|(grid, fields)| Shown::Image(grid, fields));
-    clouds(scene, job).into_iter().flatten().map(Shown::Cloud).chain(images)
+    let compressed = scene.output.compressed;
+    let images = grids(scene).zip(fields).map(move |(grid, fields)| image::encode(&grid.shape, fields, compressed));
+    let clouds = clouds(scene, job).into_iter().flatten();
+    clouds.map(move |cloud| cloud.encode(compressed)).chain(images)
 }
 
 /// The grids that frames show.

@@ -1,44 +1,72 @@
 //! Fields on a grid as a `.vti` file: image data of VTK, a number for each cell.
 
-use crate::base::vtk_writer::{Array, File, Numbers};
+use super::vtk::EncodeError;
 use crate::interface::{Field, Type};
 use crate::laws::region::Grid;
-use std::io::{self, Write};
+use cograin_vtk::model::{
+    Attribute, Attributes, ByteOrder, DataArray, DataSet, Extent, IOBuffer, ImageDataPiece, Piece, Version, Vtk,
+};
 
-/// Writes the file of these fields, which may be compressed.
-pub(super) fn write(grid: &Grid, fields: &[Field], out: &mut impl Write, compressed: bool) -> io::Result<()> {
-    let is_whole = |field: &Field| field.quantity.of_type() == Type::Integer;
-    let integers = |field: &Field| field.values.iter().map(|value| *value as i64).collect();
-    let whole: Vec<Vec<i64>> =
-        fields.iter().map(|field| if is_whole(field) { integers(field) } else { Vec::new() }).collect();
-    let array = |(field, whole)| array(field, is_whole(field).then_some(whole));
-    let arrays: Vec<Array<'_>> = fields.iter().zip(&whole).map(array).collect();
-    let extent = grid.counts.map(|count| format!("0 {count}")).join(" ");
-    // Digits give every bit back.
-    let [origin, spacing] = [grid.corners[0], grid.edges()].map(|three| three.map(|it| format!("{it:?}")).join(" "));
-    let mut file = File::begin(out, "ImageData", compressed)?;
-    write!(
-        file,
-        "<ImageData WholeExtent=\"{extent}\" Origin=\"{origin}\" Spacing=\"{spacing}\"><Piece Extent=\"{extent}\">"
-    )?;
-    file.attributes("CellData", &arrays)?;
-    write!(file, "</Piece></ImageData>")?;
-    file.end()
+/// The file of these fields, which may be compressed.
+pub(super) fn encode(grid: &Grid, fields: Vec<Field>, compressed: bool) -> Result<Vec<u8>, EncodeError> {
+    let extent = || Extent::Ranges(grid.counts.map(|count| 0..=count as i32));
+    let names: Vec<_> = fields.iter().map(|field| (field.name, field.components.clone())).collect();
+    let cell = fields.into_iter().map(attribute).collect();
+    let piece = ImageDataPiece { extent: extent(), data: Attributes { point: Vec::new(), cell } };
+    let file = Vtk {
+        version: Version::new_xml(1, 0),
+        title: String::new(),
+        byte_order: ByteOrder::LittleEndian,
+        file_path: None,
+        data: DataSet::ImageData {
+            extent: extent(),
+            origin: [0.0; 3],
+            spacing: [1.0; 3],
+            meta: None,
+            pieces: vec![Piece::Inline(Box::new(piece))],
+        },
+    };
+    let bytes = cograin_vtk::write(file, compressed).map_err(|error| EncodeError(error.to_string()))?;
+    let mut text = String::from_utf8(bytes).map_err(|error| EncodeError(error.to_string()))?;
+    // The library keeps the two with 32 bits: digits give every bit back.
+    for (key, numbers) in [("Origin", grid.corners[0]), ("Spacing", grid.edges())] {
+        let place = value_of(&text, key).ok_or_else(|| EncodeError(format!("no {key} in the file")))?;
+        text.replace_range(place, &numbers.map(|number| format!("{number:?}")).join(" "));
+    }
+    for (name, components) in names.into_iter().filter(|(_, components)| components.len() > 1) {
+        // The library has no names of components.
+        let tag = format!(" Name=\"{name}\"");
+        let named = (0..).zip(components).map(|(place, own)| format!(" ComponentName{place}=\"{own}\""));
+        text = text.replacen(&tag, &format!("{tag}{}", named.collect::<String>()), 1);
+    }
+    Ok(text.into_bytes())
 }
 
-/// One field as the file has it, of these whole numbers if it has any.
-fn array<'a>(field: &'a Field, whole: Option<&'a Vec<i64>>) -> Array<'a> {
-    let numbers = whole.map_or(Numbers::Reals(&field.values), |whole| Numbers::Integers(whole));
-    let named = if field.components.len() > 1 { &field.components[..] } else { &[] };
-    Array { name: field.name, components: field.components.len(), named, numbers }
+/// Where the value of an attribute stands in the text of a file.
+fn value_of(text: &str, key: &str) -> Option<std::ops::Range<usize>> {
+    let begins = format!(" {key}=\"");
+    let from = text.find(&begins)? + begins.len();
+    Some(from..from + text[from..].find('"')?)
+}
+
+/// One field as the file has it.
+fn attribute(field: Field) -> Attribute {
+    let is_whole = field.quantity.of_type() == Type::Integer;
+    let data = match is_whole {
+        true => IOBuffer::I64(field.values.into_iter().map(|value| value as i64).collect()),
+        false => IOBuffer::F64(field.values),
+    };
+    let empty = match field.components.len() {
+        3 if !is_whole => DataArray::vectors(field.name),
+        components => DataArray::scalars(field.name, components as u32),
+    };
+    Attribute::DataArray(DataArray { data, ..empty })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::interface::Quantity;
-    use vtkio::Vtk;
-    use vtkio::model::{Attribute, DataSet};
 
     #[test]
     fn gives_every_bit_back_and_names_components() {
@@ -56,8 +84,7 @@ mod tests {
             field("stress", Quantity::Pressure, &["xx", "yy", "zz", "xy", "xz", "yz"], reals(144)),
             field("count", Quantity::Count, &[""], (0..24).map(f64::from).collect()),
         ];
-        let mut bytes = Vec::new();
-        write(&grid, &fields, &mut bytes, false).unwrap();
+        let bytes = encode(&grid, fields.clone(), false).unwrap();
         let text = std::str::from_utf8(&bytes).unwrap();
         for part in [
             "WholeExtent=\"0 3 0 2 0 4\"",

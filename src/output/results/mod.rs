@@ -42,6 +42,7 @@ pub(crate) mod writer;
 pub use error::{InputsError, OutputError, ResumeError, TakeOverError};
 pub use failure::{Failure, Refusal};
 pub use files::{Checkpoint, EarlierFile, TakenOver, claim_file, read_checkpoint, refuse_to_replace, write_checkpoint};
+pub use vtk::EncodeError;
 
 /// File of the outputs of the unit over time.
 pub(crate) const HISTORY: &str = "history.csv";
