@@ -22,6 +22,8 @@ keys! {
         pub contacts: bool = "`false`",
         /// Whether each frame has a file of the boundaries, with displacement and load on each facet.
         pub boundaries: bool = "`false`",
+        /// Whether files of frames are compressed, by zlib.
+        pub compressed: bool = "`false`",
         /// Whether the algorithmic energy book is kept.
         pub energy: bool = "`false`",
         /// Whether losses are booked by cause: outputs `energy.lost.<cause>`.

@@ -4,14 +4,19 @@
 //! library and not in it.
 
 use vtkio::Vtk;
+use vtkio::xml::Compressor;
 pub use vtkio::{IOBuffer, model};
 
-/// Writes a file as XML.
+/// How hard arrays are compressed: as fast as zlib can.
+const LEVEL: u32 = 1;
+
+/// Writes a file as XML, whose arrays zlib may compress.
 ///
 /// # Errors
 /// What vtkio says of data that it cannot write.
-pub fn write(file: Vtk) -> Result<Vec<u8>, vtkio::Error> {
+pub fn write(file: Vtk, compressed: bool) -> Result<Vec<u8>, vtkio::Error> {
+    let compressor = if compressed { Compressor::ZLib } else { Compressor::None };
     let mut bytes = Vec::new();
-    file.write_xml(&mut bytes)?;
+    file.try_into_xml_format(compressor, LEVEL)?.write(&mut bytes)?;
     Ok(bytes)
 }

@@ -88,7 +88,7 @@ fn each(simulation: &Simulation) -> Result<[f64; 2], EncodeError> {
     let (scene, mut state) = (simulation.scene(), simulation.state().clone());
     let sizes = |state: &crate::engine::state::State| {
         let frame = frames::particles(scene, (&state.particles, scene.has_clumps().then_some(&state.clumps)), None)
-            .encode()?
+            .encode(scene.output.compressed)?
             .len();
         Ok([frame as f64, state.to_bytes(0).len() as f64])
     };

@@ -14,8 +14,10 @@ use crate::scene::{Grid, ParticleShape, Scene};
 /// The files of a frame as bytes, in the order of their kinds; none for other jobs.
 pub(crate) fn files(scene: &Scene, mut job: Job) -> impl Iterator<Item = Result<Vec<u8>, EncodeError>> {
     let fields = if let Job::Frame { grids, .. } = &mut job { std::mem::take(grids) } else { Vec::new() };
-    let images = grids(scene).zip(fields).map(|(grid, fields)| image::encode(&grid.shape, fields));
-    clouds(scene, job).into_iter().flatten().map(PointCloud::encode).chain(images)
+    let compressed = scene.output.compressed;
+    let images = grids(scene).zip(fields).map(move |(grid, fields)| image::encode(&grid.shape, fields, compressed));
+    let clouds = clouds(scene, job).into_iter().flatten();
+    clouds.map(move |cloud| cloud.encode(compressed)).chain(images)
 }
 
 /// The grids that frames show.

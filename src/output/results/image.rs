@@ -7,8 +7,8 @@ use cograin_vtk::model::{
     Attribute, Attributes, ByteOrder, DataArray, DataSet, Extent, IOBuffer, ImageDataPiece, Piece, Version, Vtk,
 };
 
-/// The file of these fields.
-pub(super) fn encode(grid: &Grid, fields: Vec<Field>) -> Result<Vec<u8>, EncodeError> {
+/// The file of these fields, which may be compressed.
+pub(super) fn encode(grid: &Grid, fields: Vec<Field>, compressed: bool) -> Result<Vec<u8>, EncodeError> {
     let extent = || Extent::Ranges(grid.counts.map(|count| 0..=count as i32));
     let names: Vec<_> = fields.iter().map(|field| (field.name, field.components.clone())).collect();
     let cell = fields.into_iter().map(attribute).collect();
@@ -26,7 +26,7 @@ pub(super) fn encode(grid: &Grid, fields: Vec<Field>) -> Result<Vec<u8>, EncodeE
             pieces: vec![Piece::Inline(Box::new(piece))],
         },
     };
-    let bytes = cograin_vtk::write(file).map_err(|error| EncodeError(error.to_string()))?;
+    let bytes = cograin_vtk::write(file, compressed).map_err(|error| EncodeError(error.to_string()))?;
     let mut text = String::from_utf8(bytes).map_err(|error| EncodeError(error.to_string()))?;
     // The library keeps the two with 32 bits: digits give every bit back.
     for (key, numbers) in [("Origin", grid.corners[0]), ("Spacing", grid.edges())] {
@@ -84,7 +84,7 @@ mod tests {
             field("stress", Quantity::Pressure, &["xx", "yy", "zz", "xy", "xz", "yz"], reals(144)),
             field("count", Quantity::Count, &[""], (0..24).map(f64::from).collect()),
         ];
-        let bytes = encode(&grid, fields.clone()).unwrap();
+        let bytes = encode(&grid, fields.clone(), false).unwrap();
         let text = std::str::from_utf8(&bytes).unwrap();
         for part in [
             "WholeExtent=\"0 3 0 2 0 4\"",

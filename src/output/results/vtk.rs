@@ -1,7 +1,6 @@
 //! Points, and lines and facets between them, as `.vtu` files, which meshio and VTK read back bit for bit.
 //!
-//! Files are binary, inline and uncompressed: random mantissas hardly
-//! compress, and compressing costs many times the writing.
+//! Random mantissas hardly compress, and compressing costs many times the writing: it is done where a scene asks for it.
 
 use crate::scene::import::CELL;
 use cograin_vtk::model::{
@@ -62,8 +61,8 @@ pub(crate) struct PointCloud {
 }
 
 impl PointCloud {
-    /// The cloud as a `.vtu` file.
-    pub(crate) fn encode(self) -> Result<Vec<u8>, EncodeError> {
+    /// The cloud as a `.vtu` file, which may be compressed.
+    pub(crate) fn encode(self, compressed: bool) -> Result<Vec<u8>, EncodeError> {
         let count = self.points.len() / 3;
         let attributes = |fields: Vec<(&'static str, Values)>| fields.into_iter().map(attribute).collect();
         // The one cell of a file without points has no values.
@@ -80,7 +79,8 @@ impl PointCloud {
             file_path: None,
             data: DataSet::inline(piece),
         };
-        let mut bytes = cograin_vtk::write(file).map_err(|error| EncodeError(error.to_string()))?;
+        let mut bytes =
+            cograin_vtk::write(file, compressed && count > 0).map_err(|error| EncodeError(error.to_string()))?;
         add_cell(&mut bytes, &self.cell)?;
         if count == 0 { name_no_points(bytes) } else { Ok(bytes) }
     }
@@ -152,6 +152,7 @@ fn name_no_points(bytes: Vec<u8>) -> Result<Vec<u8>, EncodeError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::vtk_reader::{self, Wanted};
 
     /// A cloud of `count` points with every kind of field, and numbers that do not survive rounding.
     fn cloud(count: usize) -> PointCloud {
@@ -183,7 +184,7 @@ mod tests {
 
     #[test]
     fn gives_every_bit_back() {
-        let bytes = cloud(7).encode().unwrap();
+        let bytes = cloud(7).encode(false).unwrap();
         let (points, fields) = read_back(&bytes);
         assert_eq!(points, cloud(7).points);
         for ((name, values), read) in cloud(7).fields.into_iter().zip(fields) {
@@ -197,10 +198,22 @@ mod tests {
     }
 
     #[test]
+    fn compressed_files_give_every_bit_back() {
+        // The numbers of a field fill less than a block, blocks to the last byte, and more.
+        for count in [7, 8192, 9001] {
+            let [plain, compressed] = [false, true].map(|compressed| cloud(count).encode(compressed).unwrap());
+            assert!(count < 100 || compressed.len() < plain.len(), "{} of {}", compressed.len(), plain.len());
+            let [told, expected] =
+                [&compressed, &plain].map(|bytes| vtk_reader::read(bytes, &Wanted::Arrays(&|_| true)).unwrap());
+            assert!(told == expected && told[0].arrays.len() == 5, "{count} points");
+        }
+    }
+
+    #[test]
     fn lines_join_each_two_points() {
         let energy = vec![0.1, 0.2, 0.3];
         let lines = vec![("energy", Values::Scalars(energy.clone()))];
-        let bytes = PointCloud { kind: Kind::Lines, cell_fields: lines, ..cloud(6) }.encode().unwrap();
+        let bytes = PointCloud { kind: Kind::Lines, cell_fields: lines, ..cloud(6) }.encode(false).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::parse_xml(&bytes[..]).unwrap().data else {
             panic!("not an unstructured grid")
         };
@@ -213,7 +226,7 @@ mod tests {
 
     #[test]
     fn names_the_number_of_points_also_where_there_are_none() {
-        let text = String::from_utf8(cloud(0).encode().unwrap()).unwrap();
+        let text = String::from_utf8(cloud(0).encode(true).unwrap()).unwrap();
         assert!(text.contains(r#"<Piece NumberOfPoints="0" NumberOfCells="1">"#), "{text}");
     }
 }

@@ -17,7 +17,7 @@ enum Use {
 
 /// Reads the text of a CSV file.
 pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFault>> {
-    let mut reader = ReaderBuilder::new().trim(Trim::All).comment(Some(b'#')).from_reader(bytes);
+    let mut reader = ReaderBuilder::new().trim(Trim::Headers).comment(Some(b'#')).from_reader(bytes);
     let headers = reader.headers().map_err(|error| vec![unreadable(&error)])?;
     let headers: Vec<String> = headers.iter().map(str::to_owned).collect();
     request.needed(&headers, Some(1))?;
@@ -46,7 +46,8 @@ pub(crate) fn read(bytes: &[u8], request: &Request) -> Result<Rows, Vec<FileFaul
         let line = record.position().map_or(0, |position| position.line() as u32);
         rows.lines.push(line);
         for ((field, purpose), header) in record.iter().zip(&uses).zip(&headers) {
-            let text = std::str::from_utf8(field).unwrap_or("\u{fffd}");
+            // The reader would copy each record to trim it.
+            let text = std::str::from_utf8(field.trim_ascii()).unwrap_or("\u{fffd}");
             match purpose {
                 Use::Nothing => {}
                 Use::Label => rows.push_label(text),

@@ -279,7 +279,8 @@ fn run(table: &RunTable, faults: &mut Faults) -> Run {
 
 /// `[output]`
 fn check_output(table: &Output, faults: &mut Faults) {
-    let with_frames = [(table.contacts, "contacts"), (table.boundaries, "boundaries")];
+    let with_frames =
+        [(table.contacts, "contacts"), (table.boundaries, "boundaries"), (table.compressed, "compressed files")];
     if let Some((_, what)) = with_frames.iter().find(|(wanted, _)| *wanted && table.frame_interval.is_none()) {
         let expected = format!("{what} are written with the frames");
         faults.add("output", "frame_interval", Mistake::Missing { expected });
