@@ -21,7 +21,7 @@ material = "a"
 list = [{{ position = [0.0, 0.0, 0.0], radius = 1.0e-3, angular_velocity = [0.0, 0.0, 40.0] }}]
 [fluid.water]
 density = 1000.0
-viscosity = 1.0e-14
+viscosity = 1.0e-16
 velocity = [{FLOW:?}, 0.0, 0.0]
 {keys}
 [fluid.water.lift.magnus]
