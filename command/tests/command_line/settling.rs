@@ -203,3 +203,64 @@ fn what_newtons_method_cannot_settle_is_settled_by_time_steps_and_said() {
         "{text}"
     );
 }
+
+#[test]
+fn temperatures_stay_while_a_scene_settles_and_go_on_in_another_one() {
+    let place = Place::new("warm");
+    let (scene, settled) = (place.at("scene.toml"), place.at("settled.cograin"));
+    let text = |applied: f64| {
+        format!(
+            r#"
+gravity = [0.0, 0.0, -9.81]
+[run]
+end = 0.1
+step = 1.0e-5
+[material.g]
+density = 2500.0
+youngs_modulus = 1.0e7
+poissons_ratio = 0.25
+conductivity = 50.0
+specific_heat = 80.0
+[pair.g.g]
+restitution = 0.6
+[contact.c.normal.hertz]
+[contact.c.heat.constriction]
+[particles.a]
+material = "g"
+temperature = 300.0
+list = [{{ position = [0.0, 0.0, 1.0e-3], radius = 1.0e-3 }}]
+[boundary.plate]
+plane = {{ point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+material = "g"
+temperature = 400.0
+heat_capacity = 0.01
+applied_heat = {applied:?}
+[heat_source.oven]
+particles = {{ set = "a" }}
+power = 0.1
+[probe.grain]
+particle = 1
+[output]
+history_interval = 0.1
+"#
+        )
+    };
+    fs::write(&scene, text(1.0)).unwrap();
+    complaint(&cograin(&[&"settle", &scene, &"-o", &settled]).output().unwrap(), 0);
+    let values = |folder: &str, name: &str| column(&place.at(folder), name);
+    let run = |folder: &str, more: &[&str]| {
+        let out = place.at(folder);
+        complaint(&cograin(&[&"run", &scene, &"-o", &out]).args(more).output().unwrap(), 0);
+    };
+    run("first", &["--from", settled.to_str().unwrap()]);
+    for (name, expected) in [("grain.temperature", 300.0), ("plate.temperature", 400.0)] {
+        assert_eq!(values("first", name)[0], expected);
+        assert!(values("first", name)[1] > expected, "{:?}", values("first", name));
+    }
+    fs::write(&scene, text(2.0)).unwrap();
+    let checkpoint = place.at("first").join("checkpoint.cograin");
+    run("second", &["--from", checkpoint.to_str().unwrap(), "--set", "run.end=0.2"]);
+    for name in ["grain.temperature", "plate.temperature"] {
+        assert_eq!(values("second", name)[0], values("first", name)[1], "{name}");
+    }
+}

@@ -174,6 +174,12 @@ impl Simulation {
         self.choose_stages();
     }
 
+    /// Lets temperatures stay as they are from now on: for what is brought to rest in a time that means nothing.
+    pub fn hold_temperatures(&mut self) {
+        self.rollback.forget();
+        self.transfer.iter_mut().for_each(Transfer::hold);
+    }
+
     /// From now on an interval ends after its present time step if this flag is set ([`RunError::Stopped`]).
     pub fn stop_when(&mut self, stop: &Arc<AtomicBool>) {
         self.stop = Some(Arc::clone(stop));

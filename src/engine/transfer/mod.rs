@@ -39,6 +39,8 @@ pub(crate) struct Transfer {
     takes: Vec<bool>,
     /// What flows where nothing moves.
     relaxation: Relaxation,
+    /// Whether temperatures stay as they are, whatever would flow.
+    holds: bool,
 }
 
 /// The temperature of the particle in a slot: of what it belongs to, where that has one \[K\].
@@ -63,7 +65,18 @@ impl Transfer {
             bonds: (0..scene.bonds.len()).map(|bond| BondConduction::of(scene, bond)).collect(),
             takes: scene.boundaries.iter().map(takes_heat).collect(),
             relaxation: Relaxation::default(),
+            holds: false,
         })
+    }
+
+    /// Lets temperatures stay as they are from now on.
+    pub(crate) fn hold(&mut self) {
+        self.holds = true;
+    }
+
+    /// Whether temperatures stay as they are.
+    pub(crate) fn holds(&self) -> bool {
+        self.holds
     }
 
     /// Begins a time step, before forces are evaluated: open contacts let heat flow there, those that bonds suppress here.
@@ -90,6 +103,10 @@ impl Transfer {
         progress: &Progress,
         context: &Context,
     ) {
+        if self.holds {
+            state.heat.iter_mut().for_each(Heat::forget_step);
+            return;
+        }
         if scene.heat.frozen {
             self.relax((scene, passes), state, progress, context);
             return;

@@ -168,6 +168,7 @@ pub fn settle(order: SettleOrder<'_>, watch: &mut dyn FnMut(SettleProgress)) -> 
         come_to_rest(&mut simulation, tolerance, factorise, watch)
     });
     let suits = if order.scene.bonds.is_empty() { DAMPING } else { DAMPING_OF_BONDS };
+    simulation.hold_temperatures();
     simulation.damp_rest(order.scene.run.settle_damping.unwrap_or(suits));
     let come = match newton {
         Some(Ok(_)) => Ok(unbalanced_force(&mut simulation)),

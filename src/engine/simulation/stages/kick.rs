@@ -7,6 +7,7 @@ use crate::base::threads::Context;
 use crate::engine::bodies::{book, boundary};
 use crate::engine::boundaries::{loads, nodes};
 use crate::engine::fluid::{self, Kick};
+use crate::engine::transfer::Transfer;
 use crate::engine::{energy, integration, transfer};
 
 impl Simulation {
@@ -20,7 +21,8 @@ impl Simulation {
 
     /// Lets heat flow between the fluid and what stands in it.
     pub(super) fn convect(&mut self, step: &mut TimeStep) {
-        if let Some(medium) = &mut self.medium {
+        let holds = self.transfer.as_ref().is_some_and(Transfer::holds);
+        if let Some(medium) = self.medium.as_mut().filter(|_| !holds) {
             fluid::convect(medium, &mut self.state, step.context);
         }
     }

@@ -20,7 +20,7 @@ use crate::engine::cell::images;
 use crate::engine::columns;
 use crate::engine::state::{Particles, State, StateFault};
 use crate::laws::bond::creation::Moment;
-use crate::scene::{CellMotion, Scene};
+use crate::scene::{BoundaryTemperature, CellMotion, Scene};
 use std::sync::Arc;
 
 /// Distance over the radius below which a particle of a group is where its group has it.
@@ -81,6 +81,7 @@ impl Simulation {
         left.extend(columns::take_over(&scene, &mut state, (reached, from.columns()), &slots));
         put_clumps(&mut state, reached, &numbers);
         put_boundaries(&scene, &mut state, reached, from);
+        put_temperatures(&scene, &mut state, reached, from);
         let rows = images::take_over(&mut state, reached, |there| numbers.at(there));
         begin_inputs(&scene, &mut state);
         history::put_contacts(&scene, &mut state, reached, (from, &numbers), &rows);
@@ -151,6 +152,18 @@ fn put_clumps(state: &mut State, reached: &State, numbers: &Numbers) {
         }
         own.orientation[index] = other.orientation[from];
         clumps::set_spin(own, index);
+    }
+}
+
+/// Lets boundaries that take up heat be as warm as they were; a group is as warm as its particles.
+fn put_temperatures(scene: &Scene, state: &mut State, reached: &State, from: &Description) {
+    let (Some(heat), Some(other)) = (&mut state.heat, &reached.heat) else { return };
+    for (boundary, moved) in scene.boundaries.iter().zip(&mut heat.boundaries) {
+        let there = from.boundary(boundary).and_then(|index| other.boundaries.get(index));
+        let is_body = matches!(boundary.temperature, BoundaryTemperature::Body { .. });
+        if let Some(there) = there.filter(|there| is_body && there.capacity > 0.0) {
+            moved.initial = there.temperature();
+        }
     }
 }
 
