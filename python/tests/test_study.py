@@ -287,7 +287,7 @@ def test_a_folder_with_other_text_is_refused(tmp_path):
 
 def test_a_table_that_no_study_wrote_stays_as_it_is(tmp_path):
     (tmp_path / "results.csv").write_text("mine")
-    with pytest.raises(StudyError, match="results.csv: expected a folder without it"):
+    with pytest.raises(StudyError, match=r"results\.csv: expected a folder without it"):
         Study({"x": [1]}, square, tmp_path)
     assert (tmp_path / "results.csv").read_text() == "mine"
 

@@ -285,7 +285,7 @@ fn course(scene: &Scene) -> u64 {
         ..SceneDraft::clone(scene)
     };
     rest.run.end = None;
-    rest.run.threads = None;
+    (rest.run.threads, rest.run.width) = (None, None);
     rest.run.plane = None;
     // Their numbers stand in the laws; what may be tuned is part of the state.
     for parameter in scene.tunables() {
